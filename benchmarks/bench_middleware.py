@@ -1,7 +1,8 @@
 """Calls through the runtime against the same calls by hand, in turns, in one run.
 
-Over zenoh to another process; the raw code sends bytes that are ready, as the runtime does it with
-sessions, channels and threads of the same kind. In-process against a plain method call.
+Over every middleware to another process, and over raw zenoh: the raw code sends bytes that are
+ready, as the runtime does it with sessions, channels and threads of the same kind. In-process
+against a plain method call.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import sys
 import threading
 import uuid
 from collections.abc import Callable
+from functools import partial
 from statistics import median
 from time import perf_counter_ns
 from typing import Any
@@ -24,10 +26,13 @@ from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
+from robocomp_dsl.runtime.middleware.registry import known_capabilities, middleware_names
 from robocomp_dsl.runtime.presence.domain_session import open_session
 
 ROUNDS = 60
 CALLS = 100
+GOALS = {"local": 0.25}
+"""Of a query, relative to zenoh."""
 
 
 def once(call: Callable[[], Any]) -> float:
@@ -40,13 +45,19 @@ def once(call: Callable[[], Any]) -> float:
     return median(took) / 1000
 
 
-def in_turns(calls: dict[str, Callable[[], Any]]) -> dict[str, list[float]]:
-    """The medians of every round of every call; the order changes from round to round."""
-    took: dict[str, list[float]] = {name: [] for name in calls}
-    names = list(calls)
+def in_turns(
+    calls: dict[str, Callable[[], Any]], rounds: dict[str, Callable[[], float]] | None = None
+) -> dict[str, list[float]]:
+    """The medians of every round of every call; the order changes from round to round.
+
+    `rounds` are functions that make one round elsewhere and return its median.
+    """
+    every = {name: partial(once, call) for name, call in calls.items()} | (rounds or {})
+    took: dict[str, list[float]] = {name: [] for name in every}
+    names = list(every)
     for number in range(ROUNDS):
         for name in names if number % 2 else reversed(names):
-            took[name].append(once(calls[name]))
+            took[name].append(every[name]())
     return took
 
 
@@ -71,11 +82,22 @@ class Bell:
         assert self._lock.acquire(timeout=5)
 
 
-def over_zenoh() -> list[dict[str, Any]]:
-    """Query and publish round trips."""
+def between_processes() -> list[str]:
+    """The installed middlewares that connect processes, zenoh first."""
+    known = {name: known_capabilities(name) for name in middleware_names()}
+    for name, capabilities in known.items():
+        if capabilities is None:
+            print(f"   {name} is not installed: skipped")
+    found = [n for n, c in known.items() if c and c.between_processes and c.services and c.topics]
+    return sorted(found, key=lambda name: name != "zenoh")
+
+
+def over_all() -> list[dict[str, Any]]:
+    """Query and publish round trips over every middleware."""
     domain = f"bench-{uuid.uuid4().hex[:8]}"
+    middlewares = between_processes()
     with subprocess.Popen(
-        [sys.executable, "-m", "benchmarks.middleware_peer", domain],
+        [sys.executable, "-m", "benchmarks.middleware_peer", domain, *middlewares],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
@@ -83,43 +105,71 @@ def over_zenoh() -> list[dict[str, Any]]:
         assert peer.stdout
         peer.stdout.readline()
         raw = open_session(domain)
-        host = ComponentContext("client", domain, CallbackGroup(), Statistics())
-        middleware = open_ports("zenoh", host)
+        clients = {name: Client(name, domain) for name in middlewares}
         try:
-            took = in_turns(_calls(raw.session, middleware, host))
+            calls = _raw_calls(raw.session)
+            for name, client in clients.items():
+                calls |= {f"{name} query": client.query, f"{name} publish": client.publish}
+            took = in_turns(calls)
         finally:
-            middleware.close()
+            for client in clients.values():
+                client.ports.close()
             raw.close()
             assert peer.stdin
             peer.stdin.close()
-    return [
-        {"name": "raw query round trip", "value": median(took["raw query"]), "unit": "us"},
-        {"name": "generated query round trip", "value": median(took["query"]), "unit": "us"},
-        {
-            "name": "generated query / raw query",
-            "value": ratio(took, "query", "raw query"),
-            "unit": "x",
-            "goal": 1.10,
-        },
-        {"name": "raw publish round trip", "value": median(took["raw publish"]), "unit": "us"},
-        {"name": "generated publish round trip", "value": median(took["publish"]), "unit": "us"},
-        {
-            "name": "generated publish round trip / raw",
-            "value": ratio(took, "publish", "raw publish"),
-            "unit": "x",
-            "goal": 1.20,
-        },
+    figures = [
+        {"name": f"{name} round trip", "value": median(values), "unit": "us"}
+        for name, values in took.items()
     ]
+    for title, above, below, goal in (
+        ("generated query / raw query, zenoh", "zenoh query", "raw query", 1.10),
+        ("generated publish / raw publish, zenoh", "zenoh publish", "raw publish", 1.20),
+        *(
+            (f"{name} {kind} / zenoh {kind}", f"{name} {kind}", f"zenoh {kind}", goal)
+            for name in middlewares[1:]
+            for kind, goal in (("query", GOALS.get(name)), ("publish", None))
+        ),
+    ):
+        figures.append({"name": title, "value": ratio(took, above, below), "unit": "x"})
+        if goal:
+            figures[-1]["goal"] = goal
+    return figures
 
 
-def _calls(
-    session: zenoh.Session, middleware: Any, host: ComponentContext
-) -> dict[str, Callable[[], Any]]:
-    pose = Pose()
-    ready = MOVER.operations[0].encode_request((pose,))
+class Client:
+    """A component that calls and publishes over one middleware."""
+
+    def __init__(self, middleware: str, domain: str) -> None:
+        self._pose = Pose()
+        self._bell = Bell()
+        name, peer, only = f"client-{middleware}", f"peer-{middleware}", (middleware,)
+        group = CallbackGroup()
+        self.ports = open_ports(middleware, ComponentContext(name, domain, group, Statistics()))
+        mover = Endpoint(MOVER, name, "Mover", (peer,), middlewares=only)
+        self._mover = MoverProxy(self.ports.proxy(mover))
+        self._track = TrackProxy(
+            self.ports.advertise(Endpoint(TRACK, name, "There", middlewares=only))
+        )
+        back = Endpoint(TRACK, name, "Back", (peer,), middlewares=only)
+        self.ports.subscribe(back, {"moved": self._bell.ring}, group)
+        assert self._track.wait_for_server(10)
+        assert self._mover.wait_for_server(10)
+
+    def query(self) -> None:
+        """There and back."""
+        self._mover.move(self._pose)
+
+    def publish(self) -> None:
+        """There, and back by another topic."""
+        self._track.moved(self._pose)
+        self._bell.wait()
+
+
+def _raw_calls(session: zenoh.Session) -> dict[str, Callable[[], Any]]:
+    ready = MOVER.operations[0].encode_request((Pose(),))
     querier = session.declare_querier("raw/query")
     there = session.declare_publisher("raw/there")
-    raw_bell, bell = Bell(), Bell()
+    raw_bell = Bell()
 
     def rung(sample: zenoh.Sample) -> None:
         sample.payload.to_bytes()
@@ -127,33 +177,17 @@ def _calls(
 
     subscriber = session.declare_subscriber("raw/back", zenoh.handlers.FifoChannel(256))
     drain(subscriber.handler, rung)
-    mover = MoverProxy(middleware.proxy(Endpoint(MOVER, "client", "Mover")))
-    track = TrackProxy(middleware.advertise(Endpoint(TRACK, "client", "There")))
-    heard = Endpoint(TRACK, "client", "Back", ("peer",))
-    middleware.subscribe(heard, {"moved": bell.ring}, host.callback_group)
 
     def raw_query() -> None:
         querier.get(payload=ready).recv().ok.payload.to_bytes()
 
-    def raw_publish() -> None:
+    def raw_publish(_keep: Any = subscriber) -> None:
         there.put(ready)
         raw_bell.wait()
 
-    def publish() -> None:
-        track.moved(pose)
-        bell.wait()
-
-    host.statistics.of("kept", "").durations = subscriber  # type: ignore[assignment]
-    assert track.wait_for_server(10)
-    assert mover.wait_for_server(10)
     while not there.matching_status.matching:
         pass
-    return {
-        "raw query": raw_query,
-        "query": lambda: mover.move(pose),
-        "raw publish": raw_publish,
-        "publish": publish,
-    }
+    return {"raw query": raw_query, "raw publish": raw_publish}
 
 
 def in_process() -> list[dict[str, Any]]:
@@ -194,4 +228,4 @@ def in_process() -> list[dict[str, Any]]:
 
 def run() -> list[dict[str, Any]]:
     """All figures."""
-    return in_process() + over_zenoh()
+    return in_process() + over_all()

@@ -1,4 +1,7 @@
-"""The other process: answers and echoes, by raw zenoh and by the runtime, until its input ends."""
+"""The other process: answers and echoes, by raw zenoh and by the runtime, until its input ends.
+
+python -m benchmarks.middleware_peer DOMAIN MIDDLEWARE...
+"""
 
 from __future__ import annotations
 
@@ -51,22 +54,30 @@ def serve_raw(session: zenoh.Session, ready: bytes) -> list[Any]:
     return [queryable, subscriber, back]
 
 
-def main(domain: str) -> None:
+def serve_generated(middleware: str, domain: str) -> Any:
+    """A component `peer-MIDDLEWARE` that answers and echoes."""
+    execution, name = CallbackGroup(), f"peer-{middleware}"
+    ports = open_ports(middleware, ComponentContext(name, domain, execution, Statistics()))
+    mover = Endpoint(MOVER, name, "Mover", middlewares=(middleware,))
+    ports.serve(mover, {"move": lambda pose: pose}, execution)
+    back = TrackProxy(ports.advertise(Endpoint(TRACK, name, "Back", middlewares=(middleware,))))
+    there = Endpoint(TRACK, name, "There", (f"client-{middleware}",), middlewares=(middleware,))
+    ports.subscribe(there, {"moved": back.moved}, execution)
+    return ports
+
+
+def main(domain: str, *middlewares: str) -> None:
     """Serve both ways."""
     raw = open_session(domain)
     raw_server = serve_raw(raw.session, MOVER.operations[0].encode_reply(Pose()))
-    execution = CallbackGroup()
-    middleware = open_ports("zenoh", ComponentContext("peer", domain, execution, Statistics()))
-    middleware.serve(Endpoint(MOVER, "peer", "Mover"), {"move": lambda pose: pose}, execution)
-    back = TrackProxy(middleware.advertise(Endpoint(TRACK, "peer", "Back")))
-    at = Endpoint(TRACK, "peer", "There", ("client",))
-    middleware.subscribe(at, {"moved": back.moved}, execution)
+    opened = [serve_generated(middleware, domain) for middleware in middlewares]
     print("ready", flush=True)
     sys.stdin.read()
-    middleware.close()
+    for ports in opened:
+        ports.close()
     raw.close()
     del raw_server
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(*sys.argv[1:])

@@ -15,8 +15,8 @@ from lark.grammar import Symbol, Terminal
 
 from robocomp_dsl.check.ddsl.qos import PRIORITIES
 from robocomp_dsl.check.idsl.units import KNOWN
-from robocomp_dsl.check.workspace.workspace import MIDDLEWARES
 from robocomp_dsl.model.types import PRIMITIVES
+from robocomp_dsl.runtime.middleware.registry import BUILT_IN
 from robocomp_dsl.syntax.grammar.build_tables import LANGUAGES as NAMES
 from robocomp_dsl.syntax.grammar.build_tables import build_tables, lark_parser
 from robocomp_dsl.syntax.languages.builder import TIME_UNITS
@@ -27,7 +27,7 @@ from robocomp_dsl.syntax.languages.idsl_operations import PATTERNS
 VALUES = {
     "language": LANGUAGES,
     "gui": ("Qt", *WIDGETS),
-    "middleware": MIDDLEWARES,
+    "middleware": tuple(sorted(BUILT_IN)),
     "options": OPTIONS,
     "priority": PRIORITIES,
     "restart": POLICIES,

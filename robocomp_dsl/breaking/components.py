@@ -37,10 +37,23 @@ def _ports(was: Component, now: Component, changes: Changes) -> None:
         elif after.interface.qualified != port.interface.qualified:
             message = f"port `{port.name}` was {port.interface.qualified}"
             changes.add(codes.WIRE, port, after, f"{message}, now {after.interface.qualified}")
+        elif lost := _lost_middlewares((was, port), (now, after)):
+            own = ", ".join(after.middlewares or (now.middleware,))
+            message = f"port `{port.name}` used {', '.join(lost)}, now {own}"
+            changes.add(codes.WIRE, port, after, message)
     for port in found.values():
         if port.role is Role.REQUIRES:
             message = f"`{was.name}` now requires `{port.interface.qualified}`: it needs a server"
             changes.add(codes.WIRE, was, port, message)
+
+
+def _lost_middlewares(was: tuple[Component, Port], now: tuple[Component, Port]) -> list[str]:
+    """The middlewares that a marked port used and uses no longer."""
+    (old, port), (new, after) = was, now
+    if not (port.middlewares or after.middlewares):
+        return []
+    present = after.middlewares or (new.middleware,)
+    return [name for name in port.middlewares or (old.middleware,) if name not in present]
 
 
 def _verb(port: Port) -> str:

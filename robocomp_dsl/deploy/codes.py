@@ -91,10 +91,10 @@ use other interfaces or parameters than the deployment was checked with. Generat
 MIDDLEWARE = Code(
     "RC906",
     Severity.ERROR,
-    "middleware cannot connect processes",
+    "a middleware cannot be used on this machine",
     """\
-A deployment runs each component in its own process and monitors it through the middleware of the
-deployment. This requires `zenoh`; `inproc` connects components within one process only.
+A deployment runs each component in its own process, which `inproc` cannot connect. Some middlewares
+need a package that is installed separately; the help of the finding names it.
 
 Wrong:
 
@@ -102,7 +102,7 @@ Wrong:
 
 Right:
 
-    Deployment robot { component arm; };      // zenoh
+    Deployment robot { component arm; };      // zenoh, if the component names no other one
 """,
 )
 

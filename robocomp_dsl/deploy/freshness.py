@@ -7,7 +7,7 @@ deployment was checked with.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from robocomp_dsl.deploy import codes
 from robocomp_dsl.deploy.preflight import short_path
@@ -20,16 +20,20 @@ from robocomp_dsl.model.deployment import Deployment
 LANGUAGE = "python"
 
 
-def find_outdated(deployment: Deployment, middlewares: Iterable[str]) -> Iterator[Diagnostic]:
-    """One warning per outdated component, at its first instance."""
-    known = tuple(middlewares)
+def find_outdated(
+    deployment: Deployment, middlewares: Callable[[], Iterable[str]]
+) -> Iterator[Diagnostic]:
+    """One warning per outdated component, at its first instance.
+
+    `middlewares` returns the names of all middlewares.
+    """
     checked: set[Component] = set()
     for instance in deployment.instances:
         component = instance.component
         if component in checked or instance.is_program:
             continue
         checked.add(component)
-        changed = _changed_files(component, known)
+        changed = _changed_files(component, middlewares)
         if changed:
             yield Diagnostic(
                 codes.OUTDATED,
@@ -40,13 +44,13 @@ def find_outdated(deployment: Deployment, middlewares: Iterable[str]) -> Iterato
             )
 
 
-def _changed_files(component: Component, middlewares: tuple[str, ...]) -> list[str]:
+def _changed_files(component: Component, middlewares: Callable[[], Iterable[str]]) -> list[str]:
     """The files that would change, for the middleware with the fewest changes.
 
     The component may have been generated for another middleware than its default.
     """
     best: list[str] | None = None
-    for middleware in dict.fromkeys((component.middleware, *middlewares)):
+    for middleware in _names_from(component.middleware, middlewares):
         planned = plan(component, language=LANGUAGE, middleware=middleware)
         files = [file for file in planned if not file.write_once]
         try:
@@ -59,3 +63,9 @@ def _changed_files(component: Component, middlewares: tuple[str, ...]) -> list[s
         if not best:
             break
     return best or []
+
+
+def _names_from(first: str, others: Callable[[], Iterable[str]]) -> Iterator[str]:
+    """`first`, then the others; these are looked up only if they are needed."""
+    yield first
+    yield from (name for name in others() if name != first)

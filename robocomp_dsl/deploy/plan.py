@@ -7,31 +7,30 @@ command line with its connections, the environment, and the start and stop order
 from __future__ import annotations
 
 import shlex
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from graphlib import TopologicalSorter
 from pathlib import Path
 
+from robocomp_dsl.deploy.connection_flags import connection_flags, middleware_flags, name_for
 from robocomp_dsl.deploy.devices import describe_devices, devices_environment
 from robocomp_dsl.deploy.plan_text import describe_clock, describe_host
-from robocomp_dsl.model.component import Port
 from robocomp_dsl.model.deployment import (
     START_TIMEOUT_S,
     Clock,
-    Connection,
     Deployment,
+    External,
     Instance,
-    Qos,
     Readiness,
     ResourceLimits,
     Restart,
 )
+from robocomp_dsl.model.port_middlewares import port_middlewares
 from robocomp_dsl.model.types import Literal
 from robocomp_dsl.runtime.time.clock_settings import LOCKSTEP, SIM, ClockSettings
 
 PYTHON_PROGRAMS = ("python3", "python")
 """Program names that stand for the interpreter that runs rcdeploy (it has the runtime)."""
-PRIORITIES = ("background", "low", "normal", "high", "realtime")
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,18 +67,34 @@ class Process:
 
 
 @dataclass(frozen=True, slots=True)
+class ExternalProgram:
+    """A program outside of the deployment; `users` are the components connected to it.
+
+    `role` and `interface` are those of its port: `implements`, `RoboCompLaser::Laser`.
+    """
+
+    name: str
+    middleware: str
+    address: str
+    role: str
+    interface: str
+    users: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Plan:
     """The processes of a deployment, in an order that respects `after`.
 
-    `clock` is a text such as `simulated, from body`.
+    `middlewares` are those that its ports use; `clock` is a text such as `simulated, from body`.
     """
 
     name: str
     path: Path
     domain: str
-    middleware: str
+    middlewares: tuple[str, ...]
     processes: tuple[Process, ...]
     clock: str = "wall"
+    externals: tuple[ExternalProgram, ...] = ()
 
     def shutdown_batches(self) -> list[list[str]]:
         """Names of processes to stop, batch after batch; those of one batch stop together."""
@@ -98,8 +113,43 @@ def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) ->
         )
         for instance in deployment.instances
     )
-    clock = describe_clock(deployment.clock)
-    return Plan(name, deployment.path, domain, deployment.middleware, processes, clock)
+    return Plan(
+        name,
+        deployment.path,
+        domain,
+        used_middlewares(deployment),
+        processes,
+        describe_clock(deployment.clock),
+        tuple(_external(external, deployment) for external in deployment.externals),
+    )
+
+
+def used_middlewares(deployment: Deployment) -> tuple[str, ...]:
+    """The middlewares that the ports of a deployment use, in order of first use."""
+    names = {
+        name: None
+        for instance in deployment.instances
+        for port in instance.component.ports
+        for name in port_middlewares(instance, port, deployment.connections, deployment.middleware)
+    }
+    return tuple(names)
+
+
+def _external(external: External, deployment: Deployment) -> ExternalProgram:
+    ends = [(c.source, c.target) for c in deployment.connections]
+    users = [
+        (source if target is external else target).full_name
+        for source, target in ends
+        if external in (source, target)
+    ]
+    return ExternalProgram(
+        external.name,
+        external.middleware,
+        external.address,
+        str(external.only_port.role),
+        external.only_port.interface.qualified,
+        tuple(dict.fromkeys(users)),
+    )
 
 
 def batches(predecessors: dict[str, set[str]]) -> list[list[str]]:
@@ -175,7 +225,8 @@ def _command_line(
     argv = [*command, "--name", instance.name]
     argv += ["--prefix", instance.prefix] if instance.prefix else []
     argv += ["--domain", domain]
-    argv += ["--middleware", deployment.middleware, "--log-format", "json"]
+    argv += middleware_flags(deployment, instance)
+    argv += ["--log-format", "json"]
     argv += ["--config", str(instance.config)] if instance.config else []
     argv += ["--context", instance.context] if instance.context else []
     argv += ["--config-name", instance.config_name] if instance.config_name else []
@@ -184,7 +235,7 @@ def _command_line(
     argv += _watchdog_flags(instance)
     if deployment.clock.source:
         argv += ["--clock", format_clock(deployment.clock, instance, deployment.instances)]
-    return argv + _connection_flags(instance, deployment.connections)
+    return argv + connection_flags(instance, deployment.connections)
 
 
 def _watchdog_flags(instance: Instance) -> list[str]:
@@ -195,13 +246,13 @@ def format_clock(clock: Clock, instance: Instance, instances: Sequence[Instance]
     """The value of `--clock` for `instance`; only the clock source gets the list of members."""
     assert clock.source is not None  # noqa: S101 - a wall clock needs no flag
     others = [
-        _name_for(instance, other)
+        name_for(instance, other)
         for other in instances
         if other is not clock.source and not other.is_program
     ]
     settings = ClockSettings(
         LOCKSTEP if clock.lockstep else SIM,
-        _name_for(instance, clock.source),
+        name_for(instance, clock.source),
         tuple(sorted(others)) if clock.lockstep and instance is clock.source else (),
         clock.limit_s,
         clock.stop_on_timeout,
@@ -217,77 +268,6 @@ def _stops_after(name: str, deployment: Deployment, order: dict[str, int]) -> tu
     users = {instance.name for instance in deployment.instances if name in instance.after}
     for connection in deployment.connections:
         ends = (connection.source.name, connection.target.name)
-        if name in ends and ends[0] != ends[1]:
+        if name in ends and ends[0] != ends[1] and all(end in order for end in ends):
             users.add(ends[1] if ends[0] == name else ends[0])
     return tuple(sorted((u for u in users if order[u] > order[name]), key=order.__getitem__))
-
-
-def _connection_flags(instance: Instance, connections: Sequence[Connection]) -> list[str]:
-    """The `--connect` and `--qos` flags of one process, in the order of the description."""
-    flags: list[str] = []
-    qualities: dict[str, list[Qos]] = {}
-    for link in connections:
-        ends = ((link.source, link.source_port), (link.target, link.target_port))
-        # The flag goes to the end that looks for the other: the client, the subscriber.
-        if link.source_port.role.is_topic:
-            (peer, peer_port), (own, own_port) = ends
-        else:
-            (own, own_port), (peer, peer_port) = ends
-        if own is instance:
-            argument = _peer_argument(instance, peer, peer_port)
-            flags += ["--connect", f"{own_port.name}={argument}"]
-        for end, port in ends:
-            if end is instance and link.qos != Qos():
-                qualities.setdefault(port.name, []).append(link.qos)
-    for name, requested in qualities.items():
-        flags += ["--qos", f"{name}={format_qos(merge_qos(requested))}"]
-    return flags
-
-
-def _name_for(instance: Instance, other: Instance) -> str:
-    """The full name of `other` for the command line of `instance`, without its prefix added."""
-    return f"/{other.full_name}" if instance.prefix else other.full_name
-
-
-def _peer_argument(instance: Instance, peer: Instance, port: Port) -> str:
-    """`component`, or `component.port` if the peer has several ports of that interface."""
-    same_kind = [
-        p for p in peer.component.ports if p.role is port.role and p.interface is port.interface
-    ]
-    name = _name_for(instance, peer)
-    return name if len(same_kind) == 1 else f"{name}.{port.name}"
-
-
-def merge_qos(qualities: Iterable[Qos]) -> Qos:
-    """The quality of service that satisfies all of `qualities`."""
-    merged = Qos()
-    for qos in qualities:
-        reliable = [q.reliable for q in (merged, qos) if q.reliable is not None]
-        priorities = [q.priority for q in (merged, qos) if q.priority is not None]
-        depths = [q.depth for q in (merged, qos) if q.depth is not None]
-        deadlines = [q.deadline_ms for q in (merged, qos) if q.deadline_ms is not None]
-        merged = Qos(
-            reliable=any(reliable) if reliable else None,
-            priority=max(priorities, key=_priority_rank, default=None),
-            depth=max(depths, default=None),
-            deadline_ms=min(deadlines, default=None),
-        )
-    return merged
-
-
-def _priority_rank(priority: str) -> int:
-    return PRIORITIES.index(priority) if priority in PRIORITIES else 0
-
-
-def format_qos(qos: Qos) -> str:
-    """The value of `--qos PORT=`: `best_effort,depth=1,deadline=40`; the deadline in ms."""
-    items = []
-    if qos.reliable is not None:
-        items.append("reliable" if qos.reliable else "best_effort")
-    if qos.depth is not None:
-        items.append(f"depth={qos.depth}")
-    if qos.priority is not None:
-        items.append(f"priority={qos.priority}")
-    if qos.deadline_ms is not None:
-        items.append(f"deadline={qos.deadline_ms:g}")
-    return ",".join(items)

@@ -12,7 +12,9 @@ import socket
 from collections.abc import Iterator
 from pathlib import Path
 
+from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.deploy import codes
+from robocomp_dsl.deploy.middlewares import check_middlewares
 from robocomp_dsl.deploy.parameters import runtime_schema
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.diagnostics import Code, Diagnostic, Note
@@ -26,8 +28,6 @@ from robocomp_dsl.source import Source, UnreadableSource
 
 DEFAULT_CONFIG = Path("etc") / "config.yaml"
 """The configuration that a component reads by default, if the file exists."""
-MONITORED_MIDDLEWARES = ("zenoh",)
-"""Middlewares through which rcdeploy can monitor whether a component is ready."""
 
 
 def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list[Diagnostic]:
@@ -36,10 +36,7 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
     With `ports`, fixed ports must be free, and names must be unused in the domain.
     """
     findings: list[Diagnostic] = []
-    if deployment.middleware not in MONITORED_MIDDLEWARES:
-        message = f"middleware `{deployment.middleware}` cannot connect processes"
-        help_text = f"remove `middleware`, or use one of: {', '.join(MONITORED_MIDDLEWARES)}"
-        findings.append(Diagnostic(codes.MIDDLEWARE, deployment.span, message, help=help_text))
+    findings += check_middlewares(deployment, KnownMiddlewares())
     for instance, process in zip(deployment.instances, plan.processes, strict=True):
         if not instance.host.is_local:
             findings.append(_remote_host(instance))

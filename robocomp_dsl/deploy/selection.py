@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 
 from robocomp_dsl.deploy.plan import Process
 from robocomp_dsl.diagnostics import did_you_mean
-from robocomp_dsl.model.deployment import Connection, Deployment
+from robocomp_dsl.model.deployment import Deployment, Instance
 
 
 class NoSuchGroup(Exception):
@@ -38,20 +38,21 @@ def select_group(deployment: Deployment, name: str) -> Deployment:
         for instance in deployment.instances
         if instance.name in inside
     }
+    externals = {external.name: external for external in deployment.externals}
+    ends: dict[str, Instance] = {**externals, **selected}
+    connections = tuple(
+        wire.replace(source=ends[wire.source.name], target=ends[wire.target.name])
+        for wire in deployment.connections
+        if wire.source.name in ends and wire.target.name in ends
+    )
+    used = {end.name for wire in connections for end in (wire.source, wire.target)}
     return deployment.replace(
         instances=tuple(selected.values()),
-        connections=tuple(
-            wire.replace(source=selected[wire.source.name], target=selected[wire.target.name])
-            for wire in deployment.connections
-            if _is_internal(wire, inside)
-        ),
+        connections=connections,
+        externals=tuple(external for external in deployment.externals if external.name in used),
         # Without the source of the time a group lives by the clock of the machine.
         clock=clock.replace(source=selected.get(clock.source.name)) if clock.source else clock,
     )
-
-
-def _is_internal(wire: Connection, inside: set[str]) -> bool:
-    return wire.source.name in inside and wire.target.name in inside
 
 
 def select_names(names: Iterable[str], processes: Sequence[Process]) -> list[str]:

@@ -61,10 +61,10 @@ STYLES: Mapping[str, Style] = {
         second=frozenset(("BRACKETED",)),
         inline_braces=True,
     ),
-    # set motors[2].min = 1;  restart on-failure;  connect a.B -> c.B;
+    # set motors[2].min = 1;  restart on-failure;  connect a.B -> c.B;  when !(a || b);
     "ddsl": Style(
-        before=_BEFORE | {"-", "BRACKETED"},
-        after=_AFTER | {"-"},
+        before=_BEFORE - {"("} | {"-", "BRACKETED"},
+        after=_AFTER | {"-", "!"},
         breaks=frozenset(("->",)),
     ),
     # :playing parallel { states a, b; };

@@ -105,7 +105,7 @@ def _statement(words: Words, item: StatementKeywords) -> Context:
         _LITERALS[1],
         *([HighlightRule(rf"{NAME}(?=\s*\()", ("function",))] if words.language == "idsl" else []),
         HighlightRule(NAME, ("text",)),
-        HighlightRule(r"->|=>|::|[=:<>+.-]", ("operator",)),
+        HighlightRule(r"->|=>|::|&&|\|\||[=:<>+.!-]", ("operator",)),
         HighlightRule(r"[(),\[\]]", ("punctuation",)),
     ]
     return Context(tuple(rules))

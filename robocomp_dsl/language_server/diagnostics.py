@@ -1,7 +1,7 @@
 """Diagnostics: the findings of a file as an editor shows them.
 
-In: the check result of a file. Out: one list of diagnostics for that file. Errors in imported files
-are reported at the import that leads to them, once for each of these files.
+In: the check result of a file. Out: one list of diagnostics for that file. Errors in other files
+are reported at the import or the statement that leads to them, once for each of these files.
 """
 
 from __future__ import annotations
@@ -81,13 +81,16 @@ def _imports(session: Session, source: Source) -> Sequence[Import]:
 def _import_diagnostic(
     session: Session, errors: Sequence[Diagnostic], source: Source, imports: Sequence[Import]
 ) -> lsp.Diagnostic:
-    """The errors of one imported file as one diagnostic at the import."""
+    """The errors of another file as one diagnostic: at the import, or at what refers to it."""
     path = errors[0].span.source.path
     names = {path.name, path.stem}
-    spans = (item.path.span for item in imports if Path(item.path.value).name in names)
+    spans = [item.path.span for item in imports if Path(item.path.value).name in names]
+    own = canonical_path(source.path)
+    notes = (note.span for error in errors for note in error.notes)
+    spans += [span for span in notes if canonical_path(span.source.path) == own]
     more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
     return lsp.Diagnostic(
-        range=session.positions.range_of(next(spans, source.file_span)),
+        range=session.positions.range_of(spans[0] if spans else source.file_span),
         message=f"`{path.name}` has errors: {errors[0].message}{more}",
         severity=lsp.DiagnosticSeverity.Error,
         code=errors[0].code.id,

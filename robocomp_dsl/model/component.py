@@ -30,15 +30,15 @@ class Port(Record):
     """One use of an interface.
 
     `name` identifies the port in the component: the instance name (`requires Laser as front`), else
-    the interface's name, with the suffix 1, 2, … for a repeated one. `middleware` is empty for the
-    component's own. An `optional` port may have no peer.
+    the interface's name, with the suffix 1, 2, … for a repeated one. `middlewares`, in order of
+    preference, are empty for that of the component. An `optional` port may have no peer.
     """
 
     role: Role
     interface: Interface
     name: str
     span: Span
-    middleware: str = ""
+    middlewares: tuple[str, ...] = ()
     optional: bool = False
 
     def pattern(self, operation: Operation) -> Pattern:
@@ -62,7 +62,7 @@ class Component(Record):
 
     `language` is as written (`Python`, `Cpp`, `Cpp11`) at `language_span`; `period` in ms, 0: no
     periodic calls; `threads` 1: serialised execution; `watchdog_s` 0: no watchdog. `modules` are
-    the imported IDSL modules (direct imports).
+    the imported IDSL modules (direct imports). `middleware_span` None: the default middleware.
     """
 
     name: str
@@ -81,6 +81,7 @@ class Component(Record):
     options: tuple[str, ...] = ()
     doc: str = ""
     language_span: Span | None = None
+    middleware_span: Span | None = None
 
     def with_role(self, role: Role) -> tuple[Port, ...]:
         """The ports of one role, in order of writing."""

@@ -16,12 +16,40 @@ START_TIMEOUT_S = 60.0
 
 
 class Qos(ValueRecord):
-    """Quality of service of one connection; None: not specified."""
+    """Quality of service of one connection; None: not specified.
+
+    `thread_priority` is that of the receiving thread, 1 to 99.
+    """
 
     reliable: bool | None = None
     priority: str | None = None
     depth: int | None = None
     deadline_ms: float | None = None
+    keep_all: bool | None = None
+    latched: bool | None = None
+    liveliness_ms: float | None = None
+    thread_priority: int | None = None
+
+
+class Monitor(ValueRecord):
+    """A Python class that sees, changes or rejects what travels through a connection.
+
+    `position` is `sender` or `receiver`; `on_failure` is `bypass` or `close`.
+    """
+
+    file: Path
+    class_name: str
+    arguments: tuple[tuple[str, Literal], ...] = ()
+    position: str = "receiver"
+    on_failure: str = "bypass"
+
+
+class OwnPort(ValueRecord):
+    """What a deployment chooses for a port of an instance; `address` "": any."""
+
+    port: str
+    middleware: str
+    address: str = ""
 
 
 class Restart(ValueRecord):
@@ -84,7 +112,8 @@ class Instance(Record):
     running component is `full_name`: `left/arm-motor`. `config` is None if the component uses its
     own `etc/config.yaml` or searches for a file of the `context` or for `config_name` when it
     starts; `settings` are the `set` lines with dotted keys; `executable` is a command line run in
-    the component's folder; `port` 0: any free port; `watchdog_s` None: as in the component.
+    the component's folder; `port` 0: any free port; `watchdog_s` None: as in the component;
+    `middleware` "": as in the component.
     `is_program`: a program that is no component; its `component` has no ports, and the path of the
     DDSL file.
     """
@@ -108,6 +137,8 @@ class Instance(Record):
     readiness: Readiness = Readiness()
     limits: ResourceLimits = ResourceLimits()
     watchdog_s: float | None = None
+    middleware: str = ""
+    own_ports: tuple[OwnPort, ...] = ()
     doc: str = ""
     group: str = ""
     host_span: Span | None = None
@@ -119,11 +150,27 @@ class Instance(Record):
         return f"{self.prefix}/{self.name}" if self.prefix else self.name
 
 
+class External(Instance):
+    """A program outside of the deployment, with the one port of its `component`.
+
+    Only its `middleware` understands the `address`, which is empty for a client.
+    """
+
+    address: str = ""
+
+    @property
+    def only_port(self) -> Port:
+        """The port that it has."""
+        return self.component.ports[0]
+
+
 class Connection(Record):
     """A connection from client to server, or from publisher to subscriber.
 
     For a service `source` requires and `target` implements; for a topic `source` publishes and
-    `target` subscribes. `implied`: the connection is not written in the file.
+    `target` subscribes. `implied`: the connection is not written in the file. `middleware` "": that
+    of its ports. `condition`: the events under which an arbitrated connection delivers; empty: it
+    is not arbitrated.
     """
 
     source: Instance
@@ -133,6 +180,10 @@ class Connection(Record):
     span: Span
     qos: Qos = Qos()
     implied: bool = False
+    middleware: str = ""
+    middleware_span: Span | None = None
+    monitors: tuple[Monitor, ...] = ()
+    condition: str = ""
 
 
 class Export(Record):
@@ -175,7 +226,10 @@ class Clock(Record):
 
 
 class Deployment(Record):
-    """One DDSL file; instances in an order that respects `after`, outer groups first."""
+    """One DDSL file; instances in an order that respects `after`, outer groups first.
+
+    `middleware` "": each component has its own.
+    """
 
     name: str
     path: Path
@@ -187,3 +241,4 @@ class Deployment(Record):
     doc: str = ""
     groups: tuple[Group, ...] = ()
     clock: Clock = Clock()
+    externals: tuple[External, ...] = ()

@@ -6,10 +6,12 @@ Exception
 │   ├── AmbiguousServer       several serve it, and no wire selects one
 │   ├── Timeout               no answer arrived in time
 │   ├── InterfaceMismatch     the two sides were generated from different interfaces
+│   ├── CallRejected          a monitor of the connection rejected the call
 │   ├── RemoteError           the other side failed with an error that it does not declare
 │   └── MalformedMessage      the bytes do not match the interface (offset and field)
 ├── DeclaredError             base of the exceptions that an IDSL file declares
 ├── EncodeError               a value that its type cannot carry (also a ValueError)
+├── MonitorError              a monitor of the deployment cannot be loaded
 ├── NotImplementedOperation   the component has no method for it (also a NotImplementedError)
 ├── ConfigError               an invalid configuration         } defined in
 └── ParameterRejected         a live change that was rejected  } `runtime.parameters`
@@ -22,11 +24,13 @@ from robocomp_dsl.runtime.data.errors import EncodeError
 
 __all__ = [
     "AmbiguousServer",
+    "CallRejected",
     "DeclaredError",
     "EncodeError",
     "InterfaceMismatch",
     "MalformedMessage",
     "MiddlewareError",
+    "MonitorError",
     "NoServer",
     "NotImplementedOperation",
     "RemoteError",
@@ -65,6 +69,17 @@ class SchemaError(MiddlewareError):
     """A component does not serve its schema, or what it sent is not a valid one."""
 
 
+class CallRejected(MiddlewareError):
+    """A monitor of the connection rejected the call, or another connection wins the input."""
+
+
+class RejectedByReceiver(CallRejected):
+    """A monitor of the served port rejected the call; the caller gets a `CallRejected`.
+
+    A `CallRejected` of a call that a handler makes is a failure of that handler.
+    """
+
+
 class RemoteError(MiddlewareError):
     """The server failed with an exception that its interface does not declare."""
 
@@ -85,6 +100,10 @@ class MalformedMessage(MiddlewareError):
     def __str__(self) -> str:
         where = f"field {self.path}" if self.path else "message"
         return f"malformed message: {where}, byte {self.offset}: {self.reason}"
+
+
+class MonitorError(Exception):
+    """A monitor that cannot be loaded, or does not fit to its connection; the component stops."""
 
 
 class NotImplementedOperation(NotImplementedError):

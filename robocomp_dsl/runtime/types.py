@@ -41,6 +41,7 @@ from robocomp_dsl.runtime.data.schema import (
 from robocomp_dsl.runtime.data.struct import Struct, default
 from robocomp_dsl.runtime.errors import (
     AmbiguousServer,
+    CallRejected,
     DeclaredError,
     EncodeError,
     InterfaceMismatch,
@@ -113,6 +114,7 @@ __all__ = [
     "BoolArray",
     "BoolColumn",
     "Byte",
+    "CallRejected",
     "Column",
     "DeclaredError",
     "Dictionary",

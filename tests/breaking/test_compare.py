@@ -68,6 +68,8 @@ PORTS = [
         "now requires `M::Base`: it needs a server",
     ),
     ("implements Base;", "implements Base; implements Base as two;", "", ""),
+    ("implements Base;", "implements Base(inproc);", "RC641", "used zenoh, now inproc"),
+    ("implements Base;", "implements Base(inproc, zenoh);", "", ""),
     ("middleware zenoh;", "middleware inproc;", "RC641", "used zenoh, now inproc"),
 ]
 CASES = [("idsl", *c) for c in INTERFACES] + [("pdsl", *c) for c in PARAMETERS]

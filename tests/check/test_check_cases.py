@@ -10,6 +10,7 @@ from robocomp_dsl.check.languages import CHECKS, TACTILE, check_file
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.cli.rcgen.explain import stage_codes
 from robocomp_dsl.diagnostics import Code, Report
+from tests.check.other_middlewares import OTHER_MIDDLEWARES
 from tests.check.report_text import report_text
 
 HERE = Path(__file__).parent.parent
@@ -41,7 +42,9 @@ def _in_tests(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("case", _cases(), ids=str)
 def test_check_file_reports_expected_diagnostics(case: Path, update_golden: bool) -> None:
     report = Report()
-    check_file(case, Workspace(environ={}, shipped=INTERFACES), report)
+    check_file(
+        case, Workspace(environ={}, shipped=INTERFACES, middlewares=OTHER_MIDDLEWARES), report
+    )
     actual = report_text(report, case.parent)
     if update_golden:
         _expected(case).write_text(actual)
@@ -50,7 +53,7 @@ def test_check_file_reports_expected_diagnostics(case: Path, update_golden: bool
 
 @pytest.mark.parametrize("case", _cases(), ids=str)
 def test_check_file_is_idempotent(case: Path) -> None:
-    workspace = Workspace(environ={}, shipped=INTERFACES)
+    workspace = Workspace(environ={}, shipped=INTERFACES, middlewares=OTHER_MIDDLEWARES)
     first, second = Report(), Report()
     check_file(case, workspace, first)
     check_file(case, workspace, second)

@@ -35,10 +35,10 @@ def test_cdsl_model_has_ports() -> None:
 
 def test_port_without_bridge_uses_component_middleware() -> None:
     model = component_case("sem_middleware_marks.cdsl")
-    marks = {(str(port.role), port.name): port.middleware for port in model.ports}
-    assert marks["requires", "Laser"] == ""
-    assert marks["publishes", "LaserPub"] == "zenoh"
-    assert marks["implements", "Laser"] == "inproc"
+    marks = {(str(port.role), port.name): port.middlewares for port in model.ports}
+    assert marks["publishes", "LaserPub"] == ("zenoh",)
+    assert marks["implements", "Laser"] == ("inproc", "zenoh")
+    assert marks["requires", "Speech"] == ()
 
 
 def test_option_agmagent_adds_imports_and_ports() -> None:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from robocomp_dsl.check.passes import check_ddsl
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.deployment import Qos, Restart
 from tests.check.case_models import CASES, connection_lines, deployment_case
 
@@ -75,3 +78,61 @@ def test_start_order_is_stable(tmp_path: Path) -> None:
     """
     model = deployment_case("", tmp_path, text)
     assert [instance.name for instance in model.instances] == ["c", "d", "a", "b", "e"]
+
+
+def test_monitor_file_with_syntax_error_is_reported(tmp_path: Path) -> None:
+    parts = (CASES / "ddsl" / "sem_parts").as_posix()
+    (tmp_path / "broken.py").write_text("class Near(Monitor):\n    def accept(self\n")
+    path = tmp_path / "main.ddsl"
+    path.write_text(
+        f'import "{parts}/body.cdsl"; import "{parts}/reflex.cdsl";\n'
+        "Deployment d { component body; component reflex;\n"
+        'connect reflex.Laser -> body.Laser { monitor "broken.py" Near; }; };\n'
+    )
+    report = Report()
+    check_ddsl(path, Workspace(environ={}, shipped=CASES / "interfaces"), report)
+    (finding,) = report.sorted()
+    assert finding.code.id == "RC557"
+    assert finding.span.source.path.name == "broken.py"
+    assert finding.span.start_position[0] == 2
+    assert finding.message.startswith("invalid Python: ")
+    assert [note.span.source.path.name for note in finding.notes] == ["main.ddsl"]
+
+
+def test_arbitration_adds_connections_with_conditions(tmp_path: Path) -> None:
+    parts = (CASES / "ddsl" / "sem_parts").as_posix()
+    text = f"""
+        import "{parts}/body.cdsl";
+        import "{parts}/reflex.cdsl";
+        Deployment d
+        {{
+            group eyes
+            {{
+                component left : body;
+                component right : body;
+                export LaserPub from left;
+                export LaserPub from right as Other;
+            }};
+            component body;
+            component reflex;
+            connect reflex.Laser -> body.Laser;
+            arbitrate reflex.LaserPub
+            {{
+                from eyes.LaserPub when true and !(false || not true);
+                from eyes.Other when FALSE_;
+                from body.LaserPub when false;
+            }};
+        }};
+    """.replace("FALSE_", "!true || false")
+    path = tmp_path / "main.ddsl"
+    path.write_text(text)
+    report = Report()
+    model = check_ddsl(path, Workspace(environ={}, shipped=CASES / "interfaces"), report)
+    assert model is not None
+    assert [f.message for f in report] == ["this condition never holds"] * 2
+    assert [(c.source.name, c.target.name, c.condition) for c in model.connections] == [
+        ("reflex", "body", ""),
+        ("eyes-left", "reflex", "true and !(false || not true)"),
+        ("eyes-right", "reflex", "!true || false"),
+        ("body", "reflex", "false"),
+    ]

@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from robocomp_dsl.deploy.plan import batches, format_qos, merge_qos, plan
+from robocomp_dsl.deploy.plan import batches, plan
+from robocomp_dsl.deploy.qos_text import format_qos, merge_qos
 from robocomp_dsl.model.component import Component, Port, Role
 from robocomp_dsl.model.deployment import Clock, Connection, Deployment, Host, Instance, Qos
 from robocomp_dsl.model.interface import Interface

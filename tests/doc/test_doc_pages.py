@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
+from robocomp_dsl.check.workspace.workspace import Workspace
+from tests.check.other_middlewares import OTHER_MIDDLEWARES
+from tests.doc import doc_site
 from tests.doc.doc_site import DEMO, ROOT, check_links, headings, pages, read
 
 INTERFACES = sorted((ROOT / "interfaces").glob("*.idsl"))
@@ -85,6 +89,48 @@ def test_deployment_page_shows_full_instance_name(tmp_path: Path) -> None:
         "Deployment d { component wander { prefix left; }; component mobile_base; };\n"
     )
     assert "runs as left/wander" in read(pages(ddsl)["deployments/d.html"]).text
+
+
+def test_deployment_page_shows_external_programs_and_monitors(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(doc_site, "Workspace", partial(Workspace, middlewares=OTHER_MIDDLEWARES))
+    (tmp_path / "limits.py").write_text(
+        "class Limit(Monitor):\n    def accept(self, operation, arguments):\n        return True\n"
+    )
+    ddsl = tmp_path / "app.ddsl"
+    wander = DEMO.parent / "wander.cdsl"
+    logger = ROOT / "components" / "path_logger" / "path_logger.cdsl"
+    ddsl.write_text(
+        f'import "{wander}";\nimport "{logger}";\n'
+        """Deployment app
+        {
+            component wander; component path_logger;
+            /// The laser of the old robot.
+            extern laser over rpc at "laser:tcp -p 10001" implements Laser;
+            extern base over rpc at "base:tcp -p 10001" implements DifferentialRobot;
+            extern odometry over bus at "/odom" publishes DifferentialRobotPub;
+            connect wander.Laser -> laser.Laser;
+            connect wander.DifferentialRobot -> base.DifferentialRobot
+            {
+                monitor "limits.py" Limit;
+            };
+            connect odometry.DifferentialRobotPub -> path_logger.DifferentialRobotPub
+            {
+                latched; keep last 2; liveliness 500 ms; thread priority 5;
+            };
+        };
+        """
+    )
+    site = pages(ddsl)
+    text = read(site["deployments/app.html"]).text
+    assert "Middleware that of each component" in text
+    assert "laser Laser implements rpc laser:tcp -p 10001 The laser of the old robot." in text
+    assert "wander.Laser laser.Laser Laser query rpc" in text
+    assert "monitor Limit" in text
+    assert "depth 2, latched, liveliness 500 ms, thread priority 5" in text
+    assert "2 components, 3 connections" in site["deployments/app.html"]
+    assert check_links(site) > 20
 
 
 def test_page_headings_descend_by_one_level(demo: dict[str, str]) -> None:

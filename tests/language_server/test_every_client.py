@@ -47,7 +47,14 @@ async def hover(editor: Editor) -> object:
     found = await editor.client.text_document_hover_async(params)
     assert found is not None
     assert isinstance(found.contents, lsp.MarkupContent)
-    return "component eye : reader" in found.contents.value
+    assert "component eye : reader" in found.contents.value
+    text = 'import "Laser.idsl"; Component m { Communications { requires Laser(z|enoh); }; };'
+    params = lsp.HoverParams(**editor.at("marked.cdsl", text))
+    found = await editor.client.text_document_hover_async(params)
+    editor.close("marked.cdsl")
+    assert found is not None
+    assert isinstance(found.contents, lsp.MarkupContent)
+    return "**zenoh**: " in found.contents.value
 
 
 @feature(lsp.TEXT_DOCUMENT_COMPLETION)
@@ -55,8 +62,15 @@ async def completion(editor: Editor) -> object:
     params = lsp.CompletionParams(**at(editor, "app.ddsl", "base.Laser"))
     found = await editor.client.text_document_completion_async(params)
     assert isinstance(found, list | tuple)
-    return {entry.label for entry in found} == {"base", "eye"} and not any(
-        entry.insert_text_format == lsp.InsertTextFormat.Snippet for entry in found
+    assert {entry.label for entry in found} == {"base", "eye"}
+    text = 'import "Laser.idsl"; Component m { Communications { requires Laser(|'
+    params = lsp.CompletionParams(**editor.at("marked.cdsl", text))
+    middlewares = await editor.client.text_document_completion_async(params)
+    editor.close("marked.cdsl")
+    assert isinstance(middlewares, list | tuple)
+    assert "zenoh" in {entry.label for entry in middlewares if entry.detail}
+    return not any(
+        entry.insert_text_format == lsp.InsertTextFormat.Snippet for entry in (*found, *middlewares)
     )
 
 

@@ -15,6 +15,7 @@ CASES = [
     ("component eye;", "component eye : eye"),
     ("component x : eye on localhost;", "component x : eye on localhost"),
     ("component x : eye { prefix left; };", 'prefix "left";    // runs as left/x'),
+    ("component x : eye { middleware zenoh; };", "middleware zenoh;"),
     ('component x : eye { prefix "/a/b/"; };', 'prefix "a/b";    // runs as a/b/x'),
 ]
 

@@ -10,7 +10,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 from tests.middleware.network import DEADLINE, Network
 
-MIDDLEWARES = ("inproc", "zenoh")
+MIDDLEWARES = ("inproc", "local", "zenoh")
 
 
 def set_discovery_timeout(seconds: float, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,6 +15,7 @@ from robocomp_dsl.runtime.connection.ports import ComponentContext
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 
 DEADLINE = 60.0
+NO_QOS = Qos()
 
 
 class Node:
@@ -22,10 +23,17 @@ class Node:
 
     def __init__(self, network: Network, name: str, threads: int = 1) -> None:
         self.name = name
+        self.middlewares = (network.kind,)
         self.execution = CallbackGroup(threads)
         self.statistics = Statistics()
         host = ComponentContext(name, network.domain, self.execution, self.statistics)
         self.ports: ComponentPorts = open_ports(network.kind, host)
+
+    def at(
+        self, interface: Interface, port: str, peers: tuple[str, ...] = (), qos: Qos = NO_QOS
+    ) -> Endpoint:
+        """A port on the middleware under test."""
+        return Endpoint(interface, self.name, port, peers, qos, self.middlewares)
 
     def serve(
         self,
@@ -34,18 +42,18 @@ class Node:
         port: str = "Probe",
     ) -> None:
         every = {o.name: handlers.get(o.name, lambda *_: None) for o in interface.operations}
-        self.ports.serve(Endpoint(interface, self.name, port), every, self.execution)
+        self.ports.serve(self.at(interface, port), every, self.execution)
 
     def probe(self, *peers: str) -> ProbeProxy:
-        return ProbeProxy(self.ports.proxy(Endpoint(PROBE, self.name, "Probe", peers)))
+        return ProbeProxy(self.ports.proxy(self.at(PROBE, "Probe", peers)))
 
     def news(self) -> NewsProxy:
-        return NewsProxy(self.ports.advertise(Endpoint(NEWS, self.name, "News")))
+        return NewsProxy(self.ports.advertise(self.at(NEWS, "News")))
 
     def subscribe(
         self, handler: Callable[[str, int], None], *peers: str, qos: Qos | None = None
     ) -> None:
-        at = Endpoint(NEWS, self.name, "News", peers, qos or Qos())
+        at = self.at(NEWS, "News", peers, qos or Qos())
         self.ports.subscribe(at, {"announced": handler}, self.execution)
 
     def count(self, operation: str, port: str = "Probe") -> Any:

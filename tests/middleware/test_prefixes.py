@@ -7,7 +7,6 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.port_registry import PortRegistry
@@ -159,4 +158,4 @@ def test_prefix_routes_publications_of_named_port(network: Network) -> None:
 
 
 def _news(node: Node, port: str) -> NewsProxy:
-    return NewsProxy(node.ports.advertise(Endpoint(NEWS, node.name, port)))
+    return NewsProxy(node.ports.advertise(node.at(NEWS, port)))

@@ -11,7 +11,7 @@ import sys
 import tempfile
 import traceback
 
-import robocomp_dsl.runtime.main
+import robocomp_dsl.runtime.entry_point
 import robocomp_dsl.runtime.types  # noqa: F401
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 import uuid
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from typing import Any
 
@@ -13,6 +13,7 @@ from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import CalledPort, ServedPort
+from robocomp_dsl.runtime.connection.monitor_settings import ConnectionMonitors
 from robocomp_dsl.runtime.machine import MachineSpec, StateSpec, TransitionSpec
 from robocomp_dsl.runtime.parameters import Parameters
 from robocomp_dsl.runtime.time.clock_interface import ClockProxy
@@ -147,9 +148,14 @@ class TimerOnly(Component):
 
 @contextmanager
 def running(
-    classes: list[type[Component]], middleware: str, *, limit: float = 10.0, more: str = ""
+    classes: list[type[Component]],
+    middleware: str,
+    *,
+    limit: float = 10.0,
+    more: str = "",
+    monitors: Mapping[str, tuple[ConnectionMonitors, ...]] | None = None,
 ) -> Iterator[dict[str, Any]]:
-    """The components by their names; the first is the source."""
+    """The components by their names; the first is the source. `monitors` are by component."""
     domain = uuid.uuid4().hex
     names = "+".join(follower.SPEC.name for follower in classes[1:])
     with ExitStack() as ends:
@@ -157,7 +163,12 @@ def running(
         for cls in classes:
             clock = f"lockstep,from=base,limit={limit}{more}"
             clock += f",with={names}" if cls is classes[0] else ""
-            settings = RunSettings(domain=domain, middleware=middleware, clock=parse_clock(clock))
+            settings = RunSettings(
+                domain=domain,
+                middleware=middleware,
+                clock=parse_clock(clock),
+                monitors=(monitors or {}).get(cls.SPEC.name, ()),
+            )
             runner = Runner(cls, Parameters(), settings)
             runner.start()
             ends.callback(stop, runner)

@@ -145,7 +145,7 @@ def test_loop_that_waits_for_simulated_time_does_not_hang() -> None:
 PROGRAM = """
 import os, sys, threading
 from robocomp_dsl.runtime import Component, ComponentSpec
-from robocomp_dsl.runtime.main import main
+from robocomp_dsl.runtime.entry_point import main
 
 class Hanging(Component):
     SPEC = ComponentSpec(name="hanging", period=1, middleware="inproc")

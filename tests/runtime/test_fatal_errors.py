@@ -124,7 +124,7 @@ def test_hanging_compute_does_not_prevent_finalize(short_timeouts: None) -> None
 PROGRAM = """
 import sys, threading
 from robocomp_dsl.runtime import Component, ComponentSpec
-from robocomp_dsl.runtime.main import main
+from robocomp_dsl.runtime.entry_point import main
 
 class Exiting(Component):
     SPEC = ComponentSpec(name="exiting", period=1, middleware="inproc")

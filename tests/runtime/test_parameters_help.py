@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from robocomp_dsl.runtime import Component, ComponentSpec
-from robocomp_dsl.runtime.main import main
+from robocomp_dsl.runtime.entry_point import main
 from robocomp_dsl.runtime.parameters import Parameters
 from robocomp_dsl.runtime.parameters.schema import Group, Parameter, ParameterGroup
 

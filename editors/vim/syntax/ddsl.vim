@@ -36,6 +36,12 @@ hi def link ddsl_after_value ddslValue
 hi def link ddsl_after_name ddslName
 hi def link ddsl_after_field ddslField
 syn region ddsl_after matchgroup=ddslKeyword start=/\<after\>\%(\s*\%([-+.0-9]\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_after_inner,ddsl_after_value,ddsl_after_name,ddsl_after_field
+syn match ddsl_arbitrate_name contained /\%(\<arbitrate\s\+\)\@<=\h\w*/
+hi def link ddsl_arbitrate_inner ddslModifier
+hi def link ddsl_arbitrate_value ddslValue
+hi def link ddsl_arbitrate_name ddslName
+hi def link ddsl_arbitrate_field ddslField
+syn region ddsl_arbitrate matchgroup=ddslDeclaration start=/\<arbitrate\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_arbitrate_inner,ddsl_arbitrate_value,ddsl_arbitrate_name,ddsl_arbitrate_field
 syn match ddsl_attach_inner contained /\.\@<!\<to\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 hi def link ddsl_attach_inner ddslModifier
 hi def link ddsl_attach_value ddslValue
@@ -68,6 +74,7 @@ hi def link ddsl_config_value ddslValue
 hi def link ddsl_config_name ddslName
 hi def link ddsl_config_field ddslField
 syn region ddsl_config matchgroup=ddslKeyword start=/\<config\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_config_inner,ddsl_config_value,ddsl_config_name,ddsl_config_field
+syn match ddsl_connect_inner contained /\.\@<!\<over\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 hi def link ddsl_connect_inner ddslModifier
 hi def link ddsl_connect_value ddslValue
 hi def link ddsl_connect_name ddslName
@@ -116,6 +123,21 @@ hi def link ddsl_export_value ddslValue
 hi def link ddsl_export_name ddslName
 hi def link ddsl_export_field ddslField
 syn region ddsl_export matchgroup=ddslKeyword start=/\<export\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_export_inner,ddsl_export_value,ddsl_export_name,ddsl_export_field
+syn match ddsl_extern_inner contained /\.\@<!\<at\>\.\@!\%(\s*\%("\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_extern_inner contained /\.\@<!\<implements\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_extern_inner contained /\.\@<!\<over\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_extern_inner contained /\.\@<!\<publishes\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_extern_inner contained /\.\@<!\<requires\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_extern_inner contained /\.\@<!\<subscribesTo\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+hi def link ddsl_extern_inner ddslModifier
+hi def link ddsl_extern_value ddslValue
+hi def link ddsl_extern_name ddslName
+hi def link ddsl_extern_field ddslField
+syn region ddsl_extern matchgroup=ddslKeyword start=/\<extern\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_extern_inner,ddsl_extern_value,ddsl_extern_name,ddsl_extern_field
+syn match ddsl_from_inner contained /\.\@<!\<and\>\.\@!\%(\s*\%((\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_from_inner contained /\.\@<!\<not\>\.\@!\%(\s*\%((\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_from_inner contained /\.\@<!\<or\>\.\@!\%(\s*\%((\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_from_inner contained /\.\@<!\<when\>\.\@!\%(\s*\%((\|\h\|\/[*\/]\|$\)\)\@=/
 hi def link ddsl_from_inner ddslModifier
 hi def link ddsl_from_value ddslValue
 hi def link ddsl_from_name ddslName
@@ -139,11 +161,28 @@ hi def link ddsl_import_value ddslValue
 hi def link ddsl_import_name ddslName
 hi def link ddsl_import_field ddslField
 syn region ddsl_import matchgroup=ddslKeyword start=/\<import\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_import_inner,ddsl_import_value,ddsl_import_name,ddsl_import_field
+syn match ddsl_keep_inner contained /\.\@<!\<all\>\.\@!\%(\s*\%(;\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_keep_inner contained /\.\@<!\<last\>\.\@!\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/
+hi def link ddsl_keep_inner ddslModifier
+hi def link ddsl_keep_value ddslValue
+hi def link ddsl_keep_name ddslName
+hi def link ddsl_keep_field ddslField
+syn region ddsl_keep matchgroup=ddslKeyword start=/\<keep\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_keep_inner,ddsl_keep_value,ddsl_keep_name,ddsl_keep_field
 hi def link ddsl_labels_inner ddslModifier
 hi def link ddsl_labels_value ddslValue
 hi def link ddsl_labels_name ddslName
 hi def link ddsl_labels_field ddslField
 syn region ddsl_labels matchgroup=ddslKeyword start=/\<labels\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_labels_inner,ddsl_labels_value,ddsl_labels_name,ddsl_labels_field
+hi def link ddsl_latched_inner ddslModifier
+hi def link ddsl_latched_value ddslValue
+hi def link ddsl_latched_name ddslName
+hi def link ddsl_latched_field ddslField
+syn region ddsl_latched matchgroup=ddslKeyword start=/\<latched\>\%(\s*\%(;\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_latched_inner,ddsl_latched_value,ddsl_latched_name,ddsl_latched_field
+hi def link ddsl_liveliness_inner ddslModifier
+hi def link ddsl_liveliness_value ddslValue
+hi def link ddsl_liveliness_name ddslName
+hi def link ddsl_liveliness_field ddslField
+syn region ddsl_liveliness matchgroup=ddslKeyword start=/\<liveliness\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_liveliness_inner,ddsl_liveliness_value,ddsl_liveliness_name,ddsl_liveliness_field
 hi def link ddsl_memory_inner ddslModifier
 hi def link ddsl_memory_value ddslValue
 hi def link ddsl_memory_name ddslName
@@ -155,6 +194,14 @@ hi def link ddsl_middleware_value ddslValue
 hi def link ddsl_middleware_name ddslName
 hi def link ddsl_middleware_field ddslField
 syn region ddsl_middleware matchgroup=ddslKeyword start=/\<middleware\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_middleware_inner,ddsl_middleware_value,ddsl_middleware_name,ddsl_middleware_field
+syn match ddsl_monitor_inner contained /\.\@<!\<at\>\.\@!\%(\s*\%("\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_monitor_inner contained /\.\@<!\<failure\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_monitor_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/
+hi def link ddsl_monitor_inner ddslModifier
+hi def link ddsl_monitor_value ddslValue
+hi def link ddsl_monitor_name ddslName
+hi def link ddsl_monitor_field ddslField
+syn region ddsl_monitor matchgroup=ddslDeclaration start=/\<monitor\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_monitor_inner,ddsl_monitor_value,ddsl_monitor_name,ddsl_monitor_field
 syn match ddsl_on_inner contained /\.\@<!\<by\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_on_inner contained /\.\@<!\<level\>\.\@!\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/
 hi def link ddsl_on_inner ddslModifier
@@ -162,11 +209,13 @@ hi def link ddsl_on_value ddslValue
 hi def link ddsl_on_name ddslName
 hi def link ddsl_on_field ddslField
 syn region ddsl_on matchgroup=ddslKeyword start=/\<on\>\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_on_inner,ddsl_on_value,ddsl_on_name,ddsl_on_field
+syn match ddsl_port_inner contained /\.\@<!\<at\>\.\@!\%(\s*\%("\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_port_inner contained /\.\@<!\<over\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 hi def link ddsl_port_inner ddslModifier
 hi def link ddsl_port_value ddslValue
 hi def link ddsl_port_name ddslName
 hi def link ddsl_port_field ddslField
-syn region ddsl_port matchgroup=ddslKeyword start=/\<port\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_port_inner,ddsl_port_value,ddsl_port_name,ddsl_port_field
+syn region ddsl_port matchgroup=ddslKeyword start=/\<port\>\%(\s*\%([-+.0-9]\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_port_inner,ddsl_port_value,ddsl_port_name,ddsl_port_field
 hi def link ddsl_prefix_inner ddslModifier
 hi def link ddsl_prefix_value ddslValue
 hi def link ddsl_prefix_name ddslName
@@ -177,7 +226,7 @@ hi def link ddsl_priority_inner ddslModifier
 hi def link ddsl_priority_value ddslValue
 hi def link ddsl_priority_name ddslName
 hi def link ddsl_priority_field ddslField
-syn region ddsl_priority matchgroup=ddslKeyword start=/\<priority\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_priority_inner,ddsl_priority_value,ddsl_priority_name,ddsl_priority_field
+syn region ddsl_priority matchgroup=ddslKeyword start=/\<priority\>\%(\s*\%([-+.0-9]\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_priority_inner,ddsl_priority_value,ddsl_priority_name,ddsl_priority_field
 syn match ddsl_program_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_program_name contained /\%(\<program\s\+\)\@<=\h\w*/
 hi def link ddsl_program_inner ddslModifier
@@ -189,8 +238,8 @@ syn match ddsl_ready_inner contained /\.\@<!\<after\>\.\@!\%(\s*\%([-+.0-9]\|\h\
 syn match ddsl_ready_inner contained /\.\@<!\<answers\>\.\@!\%(\s*\%(;\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_ready_inner contained /\.\@<!\<log\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_ready_inner contained /\.\@<!\<matches\>\.\@!\%(\s*\%("\|\/[*\/]\|$\)\)\@=/
-syn match ddsl_ready_inner contained /\.\@<!\<port\>\.\@!\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/
-syn match ddsl_ready_inner contained /\.\@<!\<when\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_ready_inner contained /\.\@<!\<port\>\.\@!\%(\s*\%([-+.0-9]\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_ready_inner contained /\.\@<!\<when\>\.\@!\%(\s*\%((\|\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_ready_inner contained /\.\@<!\<within\>\.\@!\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/
 hi def link ddsl_ready_inner ddslModifier
 hi def link ddsl_ready_value ddslValue
@@ -216,6 +265,12 @@ hi def link ddsl_set_value ddslValue
 hi def link ddsl_set_name ddslName
 hi def link ddsl_set_field ddslField
 syn region ddsl_set matchgroup=ddslKeyword start=/\<set\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_set_inner,ddsl_set_value,ddsl_set_name,ddsl_set_field
+syn match ddsl_thread_inner contained /\.\@<!\<priority\>\.\@!\%(\s*\%([-+.0-9]\|\h\|\/[*\/]\|$\)\)\@=/
+hi def link ddsl_thread_inner ddslModifier
+hi def link ddsl_thread_value ddslValue
+hi def link ddsl_thread_name ddslName
+hi def link ddsl_thread_field ddslField
+syn region ddsl_thread matchgroup=ddslKeyword start=/\<thread\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_thread_inner,ddsl_thread_value,ddsl_thread_name,ddsl_thread_field
 hi def link ddsl_user_inner ddslModifier
 hi def link ddsl_user_value ddslValue
 hi def link ddsl_user_name ddslName

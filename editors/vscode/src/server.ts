@@ -77,7 +77,7 @@ function options(output: vscode.OutputChannel): LanguageClientOptions {
     documentSelector: LANGUAGES.map((language) => ({ scheme: "file", language })),
     outputChannel: output,
     synchronize: {
-      fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{idsl,cdsl,pdsl,ddsl,smdsl,scxml,xml}"),
+      fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{idsl,cdsl,pdsl,ddsl,smdsl,scxml,xml,py}"),
     },
     middleware: { executeCommand },
   };

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from robocomp_dsl.check.cdsl.middlewares import component_middleware, port_middleware
+from robocomp_dsl.check.cdsl.middlewares import DEFAULT, find_middleware, port_middlewares
 from robocomp_dsl.check.cdsl.options import expand_options
 from robocomp_dsl.check.cdsl.ports import port_names
 from robocomp_dsl.check.codes import names as codes
@@ -48,6 +48,7 @@ def resolve_cdsl(
     report.extend(transitive_errors(links))
     scope = workspace.modules.import_scope(file, links)
     pairs = _ports(expanded.ports, scope, workspace, report)
+    middleware = find_middleware(tree.middleware, workspace.middlewares, report)
     component = Component(
         name=tree.name.text,
         path=file.source.path,
@@ -58,7 +59,8 @@ def resolve_cdsl(
         ports=tuple(port for _, port in pairs),
         parameters=parameters_of(tree.parameters, file.source.path, workspace, report),
         statemachine=state_machine_of(tree.statemachine, file.source.path, workspace, report),
-        middleware=component_middleware(tree.middleware, workspace.middlewares, report),
+        middleware=middleware or DEFAULT,
+        middleware_span=tree.middleware.span if tree.middleware and middleware else None,
         period=_whole(tree.period, "period", report, 0, _LONGEST_PERIOD, default=DEFAULT_PERIOD),
         threads=_whole(tree.threads, "threads", report, 1, _MOST_THREADS, default=1),
         watchdog_s=watchdog_of(tree.watchdog, codes.COMPONENT_NUMBER, report) or 0.0,
@@ -77,11 +79,11 @@ def _ports(
     for tree in trees:
         interface = find_interface(tree.interface, scope, report)
         name = names.get(id(tree))
-        middleware = port_middleware(tree.middleware, workspace.middlewares, report)
+        middlewares = port_middlewares(tree.middlewares, workspace.middlewares, report)
         if interface is not None and name is not None:
             span = tree.alias.span if tree.alias else tree.interface.span
             role, optional = Role(tree.role), tree.optional is not None
-            pairs.append((tree, Port(role, interface, name, span, middleware, optional)))
+            pairs.append((tree, Port(role, interface, name, span, middlewares, optional)))
     return pairs
 
 

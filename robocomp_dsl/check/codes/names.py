@@ -272,8 +272,8 @@ UNKNOWN_MIDDLEWARE = Code(
     Severity.ERROR,
     "unknown middleware",
     """\
-The tool includes the middlewares `zenoh` and `inproc` (all components in one process, for tests);
-further ones can be installed.
+`zenoh` is the default, and `inproc` connects the components of one process, for tests. The finding
+lists the others: those that the tool includes, and those of installed packages.
 
 Wrong:
 
@@ -288,10 +288,10 @@ Right:
 NO_BRIDGE = Code(
     "RC215",
     Severity.WARNING,
-    "middleware of a port not available yet",
+    "middleware of a port not available",
     """\
-`(ice)` or `(ros)` after an interface selects the middleware of this port. This version has no such
-bridge: the port uses the middleware of its component.
+`(ros)` or `(yarp)` after an interface is accepted in files of older tools. There is no such
+middleware here: the port uses that of its component.
 
     requires Laser(ros);      // currently the same as:
     requires Laser;

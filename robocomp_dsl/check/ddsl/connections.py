@@ -7,13 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
+from robocomp_dsl.check.cdsl.middlewares import find_middleware
 from robocomp_dsl.check.codes import deployment as codes
+from robocomp_dsl.check.ddsl.monitors import ConnectionContext, resolve_monitors
 from robocomp_dsl.check.ddsl.qos import qos_of
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.diagnostics import Edit, Fix, Note, Report, nearest
 from robocomp_dsl.model.component import Port, Role
-from robocomp_dsl.model.deployment import Connection, Instance
+from robocomp_dsl.model.deployment import Connection, External, Instance
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.syntax.ast import ddsl as ast
 
@@ -32,18 +34,31 @@ class ExplicitConnections(ValueRecord):
 def explicit_connections(
     trees: Sequence[ast.Connection],
     instances: Mapping[str, Instance],
-    troubled: Collection[str],
+    faulty: Collection[str],
+    context: ConnectionContext,
     report: Report,
 ) -> ExplicitConnections:
-    """The wires that are right, between the known instances; `troubled`: see `Written`."""
-    explicit = ExplicitConnections([], set(troubled))
+    """The valid connections between `instances`; `faulty`: see `ExplicitConnections`."""
+    explicit = ExplicitConnections([], set(faulty))
     for tree in trees:
-        connection = _connection(tree, instances, report)
-        if connection is None or _is_duplicate(connection, explicit.connections, report):
-            explicit.faulty_instances.update((tree.source.instance.text, tree.target.instance.text))
-        else:
-            explicit.connections.append(connection)
+        add_connection(tree, instances, explicit, context, report)
     return explicit
+
+
+def add_connection(
+    tree: ast.Connection,
+    instances: Mapping[str, Instance],
+    explicit: ExplicitConnections,
+    context: ConnectionContext,
+    report: Report,
+) -> Connection | None:
+    """Resolve a connection and add it to `explicit`; None if it is invalid."""
+    connection = _connection(tree, instances, context, report)
+    if connection is None or _is_duplicate(connection, explicit.connections, report):
+        explicit.faulty_instances.update((tree.source.instance.text, tree.target.instance.text))
+        return None
+    explicit.connections.append(connection)
+    return connection
 
 
 def same_interface(first: Port, second: Port) -> bool:
@@ -52,14 +67,18 @@ def same_interface(first: Port, second: Port) -> bool:
 
 
 def _connection(
-    tree: ast.Connection, instances: Mapping[str, Instance], report: Report
+    tree: ast.Connection,
+    instances: Mapping[str, Instance],
+    context: ConnectionContext,
+    report: Report,
 ) -> Connection | None:
     qos = qos_of(tree.qos, report)
+    middleware = find_middleware(tree.over, context.workspace.middlewares, report)
     source = instances.get(tree.source.instance.text)
     target = instances.get(tree.target.instance.text)
-    if source is None or target is None:
+    if source is None or target is None or (tree.over and not middleware):
         return None
-    if _is_reversed(tree, source, target, report):
+    if _is_external(tree, source, target, report) or _is_reversed(tree, source, target, report):
         return None
     source_port = _port(tree.source, source, SOURCES, report)
     target_port = _port(tree.target, target, TARGETS, report)
@@ -67,12 +86,36 @@ def _connection(
         return None
     if not _matches(tree, source_port, target_port, report):
         return None
-    return Connection(source, source_port, target, target_port, tree.span, qos)
+    monitors = resolve_monitors(tree, target_port, context, report)
+    return Connection(
+        source,
+        source_port,
+        target,
+        target_port,
+        tree.span,
+        qos,
+        middleware=middleware,
+        middleware_span=tree.over.span if tree.over else None,
+        monitors=monitors,
+    )
 
 
 def _named(instance: Instance, name: str, roles: tuple[Role, ...]) -> Port | None:
     ports = (port for port in instance.component.ports if port.role in roles)
     return next((port for port in ports if port.name == name), None)
+
+
+def _is_external(tree: ast.Connection, source: Instance, target: Instance, report: Report) -> bool:
+    """Whether both ends are external programs; reports it."""
+    if not (isinstance(source, External) and isinstance(target, External)):
+        return False
+    report.add(
+        codes.PORT_ROLE,
+        tree.source.span.cover(tree.target.span),
+        f"`{source.name}` and `{target.name}` are external programs",
+        help="a connection has a component of the deployment at one end",
+    )
+    return True
 
 
 def _is_reversed(tree: ast.Connection, source: Instance, target: Instance, report: Report) -> bool:

@@ -10,10 +10,12 @@ import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from robocomp_dsl.check.cdsl.middlewares import find_middleware
 from robocomp_dsl.check.codes import deployment as codes
 from robocomp_dsl.check.ddsl.components import ImportedComponents
 from robocomp_dsl.check.ddsl.contexts import config_search_of
 from robocomp_dsl.check.ddsl.devices import resolve_devices
+from robocomp_dsl.check.ddsl.own_ports import own_ports_of
 from robocomp_dsl.check.ddsl.prefixes import prefix_of
 from robocomp_dsl.check.ddsl.programs import program_component
 from robocomp_dsl.check.ddsl.readiness import limits_of, readiness_of
@@ -68,6 +70,7 @@ def resolve_instance(
     watchdog = watchdog_of(tree.watchdog, codes.DEPLOYMENT_NUMBER, report)
     environment = unique_by_name(tree.environment, "environment variable", report)
     devices = resolve_devices(tree, report)
+    middleware = find_middleware(tree.middleware, around.workspace.middlewares, report)
     if component is None:
         return None
     return Instance(
@@ -90,6 +93,8 @@ def resolve_instance(
         readiness=readiness,
         limits=limits,
         watchdog_s=watchdog,
+        middleware=middleware,
+        own_ports=own_ports_of(tree.own_ports, component, around.workspace.middlewares, report),
         doc=tree.doc,
         group=group,
         host_span=tree.host.span if tree.host else None,

@@ -41,6 +41,7 @@ def _component_settings(tree: ast.Instance) -> Iterator[tuple[str, Node]]:
         "from": tree.from_,
         "prefix": tree.prefix,
         "port": tree.port,
+        "middleware": tree.middleware,
     }
     yield from ((what, node) for what, node in single.items() if node is not None)
     several: dict[str, tuple[Node, ...]] = {
@@ -48,6 +49,7 @@ def _component_settings(tree: ast.Instance) -> Iterator[tuple[str, Node]]:
         "device": tree.devices,
         "attach": tree.attachments,
         "on": tree.actions,
+        "port": tree.own_ports,
     }
     for what, nodes in several.items():
         yield from ((what, node) for node in nodes)

@@ -7,20 +7,26 @@ diagnostics of this file, and the errors of the files that it imports.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from ipaddress import ip_address
 
-from robocomp_dsl.check.cdsl.middlewares import component_middleware
+from robocomp_dsl.check.cdsl.middlewares import find_middleware
 from robocomp_dsl.check.codes import deployment as codes
+from robocomp_dsl.check.ddsl.carriers import check_carriers, check_deployment_middleware
 from robocomp_dsl.check.ddsl.clocks import resolve_clock
 from robocomp_dsl.check.ddsl.components import CheckComponent, imported_components
-from robocomp_dsl.check.ddsl.connections import explicit_connections
+from robocomp_dsl.check.ddsl.connections import ExplicitConnections, explicit_connections
+from robocomp_dsl.check.ddsl.externals import report_unused_externals, resolve_externals
 from robocomp_dsl.check.ddsl.groups import resolve_groups, visible_exports
 from robocomp_dsl.check.ddsl.implicit_connections import implicit_connections
 from robocomp_dsl.check.ddsl.instances import InstanceContext, report_shared_ports, resolve_instance
+from robocomp_dsl.check.ddsl.monitored_servers import check_monitored_servers
+from robocomp_dsl.check.ddsl.monitors import ConnectionContext
 from robocomp_dsl.check.ddsl.order import start_order
+from robocomp_dsl.check.ddsl.own_ports import report_shared_addresses
 from robocomp_dsl.check.ddsl.scopes import (
     DeploymentScope,
+    arbitrations_of,
     check_exports,
     connections_of,
     flatten,
@@ -30,7 +36,7 @@ from robocomp_dsl.check.names.duplicates import unique_by_name
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.model.deployment import THIS_MACHINE, Deployment, Host, Instance
+from robocomp_dsl.model.deployment import THIS_MACHINE, Connection, Deployment, Host, Instance
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Name
 
@@ -62,32 +68,65 @@ def resolve_ddsl(
         report.add(codes.EMPTY_DEPLOYMENT, tree.name.span, f"`{tree.name.text}` has no components")
     report_shared_ports([node for node, _ in trees], report)
     order = [known[name] for name in start_order(scope, report) if name in known]
-    written = explicit_connections(*_connections(scope, known, report), report)
+    known_middlewares = workspace.middlewares
+    externals = resolve_externals(
+        scope.externals.values(), path, imported, known_middlewares, report
+    )
+    connection_context = ConnectionContext(path, workspace, {})
+    written = _connections(scope, {**known, **externals}, connection_context, report)
+    report_unused_externals(externals.values(), written.connections, report)
+    report_shared_addresses(order, [node for node, _ in trees], report)
     check_exports(scope, report)
     groups = resolve_groups(scope, known, report)
     complete = not (unclear or imported.broken) and file.tree.complete
     implied = implicit_connections(
         list(known.values()), written, imported, visible_exports(scope), report, complete=complete
     )
+    all_connections = (*written.connections, *implied)
+    check_monitored_servers(all_connections, report)
+    middleware = find_middleware(tree.middleware, known_middlewares, report)
+    if middleware and tree.middleware:
+        middleware = check_deployment_middleware(
+            middleware, tree.middleware.span, known_middlewares, report
+        )
+    valid = [c for c in all_connections if not _follows_error(c, written.faulty_instances)]
+    check_carriers(valid, middleware, known_middlewares, report)
     return Deployment(
         name=tree.name.text,
         path=path,
         span=tree.name.span,
-        middleware=component_middleware(tree.middleware, workspace.middlewares, report),
+        middleware=middleware,
         instances=tuple(order),
-        connections=(*written.connections, *implied),
+        connections=all_connections,
         hosts=tuple(hosts.values()),
         doc=tree.doc,
         groups=groups,
         clock=resolve_clock(tree.clock, order, complete=complete, report=report),
+        externals=tuple(externals.values()),
     )
 
 
 def _connections(
-    scope: DeploymentScope, known: Mapping[str, Instance], report: Report
-) -> tuple[list[ast.Connection], Mapping[str, Instance], set[str]]:
+    scope: DeploymentScope,
+    ends: Mapping[str, Instance],
+    context: ConnectionContext,
+    report: Report,
+) -> ExplicitConnections:
+    """The connections that are written, with their conditions."""
     trees, faulty = connections_of(scope, report)
-    return trees, known, faulty
+    written = explicit_connections(trees, ends, faulty, context, report)
+    if arbitrations := arbitrations_of(scope, report):
+        from robocomp_dsl.check.ddsl.arbitrations import apply_arbitrations  # noqa: PLC0415 - few files need it
+
+        apply_arbitrations(arbitrations, ends, written, context, report)
+    return written
+
+
+def _follows_error(connection: Connection, faulty: Collection[str]) -> bool:
+    """Whether a connection is implied only because the written one is invalid."""
+    return connection.implied and (
+        connection.source.name in faulty or connection.target.name in faulty
+    )
 
 
 def _host(tree: ast.Host, report: Report) -> Host:

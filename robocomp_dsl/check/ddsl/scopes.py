@@ -24,7 +24,10 @@ NAME_SEPARATOR = "-"
 
 @dataclass(slots=True, eq=False)
 class DeploymentScope:
-    """A group, or the deployment itself (`path` ""), with what is declared in it."""
+    """A group, or the deployment itself (`path` ""), with what is declared in it.
+
+    Only the deployment has `externals`.
+    """
 
     path: str
     tree: ast.Deployment | ast.Group
@@ -33,6 +36,7 @@ class DeploymentScope:
     instances: dict[str, ast.Instance] = field(default_factory=dict)
     groups: dict[str, DeploymentScope] = field(default_factory=dict)
     exports: dict[str, ast.Export] = field(default_factory=dict)
+    externals: dict[str, ast.External] = field(default_factory=dict)
 
     @property
     def ancestors(self) -> Iterator[DeploymentScope]:
@@ -91,12 +95,25 @@ def _filled(scope: DeploymentScope, report: Report) -> DeploymentScope:
         if group.host and scope.host and group.host.text != scope.host.text:
             report_conflicting_hosts(group.name.text, group.host, scope.host, report)
         scope.groups[name] = _filled(inner, report)
+    if isinstance(tree, ast.Deployment):
+        _externals(scope, tree, report)
     if isinstance(tree, ast.Group):
         _exports(scope, tree, report)
         if not tree.instances and not tree.groups:
             message = f"the group `{tree.name.text}` has no components"
             report.add(codes.EMPTY_DEPLOYMENT, tree.name.span, message)
     return scope
+
+
+def _externals(scope: DeploymentScope, tree: ast.Deployment, report: Report) -> None:
+    for external in unique_by_name(tree.externals, "external program", report):
+        name = external.name.text
+        if name in scope.instances:
+            report_duplicate(external.name, scope.instances[name].name, "component", report)
+        elif name in scope.groups:
+            report_duplicate(external.name, scope.groups[name].tree.name, "group", report)
+        else:
+            scope.externals[name] = external
 
 
 def _exports(scope: DeploymentScope, tree: ast.Group, report: Report) -> None:
@@ -155,6 +172,8 @@ def flatten(scope: DeploymentScope, report: Report) -> list[tuple[ast.Instance, 
                 tree.memory,
                 tree.cpu,
                 tree.watchdog,
+                tree.middleware,
+                tree.own_ports,
                 tree.doc,
                 tree.is_program,
             )
@@ -187,8 +206,7 @@ def resolve_port(ref: ast.PortRef, scope: DeploymentScope, report: Report) -> as
     """
     found = scope.lookup(ref.instance.text)
     if found is None:
-        _unknown(ref.instance, scope, report)
-        return None
+        return _resolve_external(ref, scope, report)
     if isinstance(found, str):
         return ast.PortRef(ref.span, Name(ref.instance.span, found), ref.port)
     export = found.exports.get(ref.port.text)
@@ -208,6 +226,16 @@ def resolve_port(ref: ast.PortRef, scope: DeploymentScope, report: Report) -> as
         return None
     port = Name(ref.port.span, inside.port.text)
     return ast.PortRef(ref.span, Name(ref.instance.span, inside.instance.text), port)
+
+
+def _resolve_external(
+    ref: ast.PortRef, scope: DeploymentScope, report: Report
+) -> ast.PortRef | None:
+    """`ref` if it refers to an external program; else None, which is reported."""
+    if ref.instance.text in [*scope.ancestors][-1].externals:
+        return ref
+    _unknown(ref.instance, scope, report)
+    return None
 
 
 def _is_export_cycle(export: ast.Export, scope: DeploymentScope) -> bool:
@@ -237,14 +265,33 @@ def connections_of(scope: DeploymentScope, report: Report) -> tuple[list[ast.Con
             if source is None or target is None:
                 faulty.update(end.instance.text for end in ends if end)
             else:
-                resolved.append(ast.Connection(tree.span, source, target, tree.qos))
+                resolved.append(
+                    ast.Connection(tree.span, source, target, tree.over, tree.qos, tree.monitors)
+                )
     return resolved, faulty
 
 
+def arbitrations_of(scope: DeploymentScope, report: Report) -> list[ast.Arbitration]:
+    """All arbitrations with qualified names."""
+    resolved: list[ast.Arbitration] = []
+    for nested in scope.descendants:
+        for tree in nested.tree.arbitrations:
+            target = resolve_port(tree.target, nested, report)
+            sources = [(resolve_port(c.source, nested, report), c) for c in tree.candidates]
+            if target is not None:
+                candidates = tuple(
+                    ast.Candidate(candidate.span, source, candidate.condition)
+                    for source, candidate in sources
+                    if source is not None
+                )
+                resolved.append(ast.Arbitration(tree.span, target, candidates))
+    return resolved
+
+
 def _unknown(name: Name, scope: DeploymentScope, report: Report) -> None:
-    known = scope.visible_names()
-    guess = nearest(name.text, known)
     root = [*scope.ancestors][-1]
+    known = [*scope.visible_names(), *root.externals]
+    guess = nearest(name.text, known)
     hidden = next(
         (
             nested.path

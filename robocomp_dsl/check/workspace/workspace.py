@@ -11,12 +11,10 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from robocomp_dsl.check.workspace.import_resolver import ImportResolver
+from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.check.workspace.module_loader import ModuleLoader
 from robocomp_dsl.check.workspace.source_cache import SourceCache
 from robocomp_dsl.resources import INTERFACES
-
-MIDDLEWARES = ("inproc", "zenoh")
-"""The shipped middlewares; a caller may pass further ones."""
 
 
 class Workspace:
@@ -26,11 +24,11 @@ class Workspace:
         self,
         folders: Iterable[Path] = (),
         environ: Mapping[str, str] = os.environ,
-        middlewares: Iterable[str] = MIDDLEWARES,
+        middlewares: KnownMiddlewares | None = None,
         shipped: Path = INTERFACES,
         files: SourceCache | None = None,
     ) -> None:
         self.sources = SourceCache() if files is None else files
         self.import_resolver = ImportResolver(self.sources, folders, environ, shipped)
         self.modules = ModuleLoader(self.sources, self.import_resolver)
-        self.middlewares = tuple(middlewares)
+        self.middlewares = middlewares or KnownMiddlewares()

@@ -74,7 +74,7 @@ def check(
     # If it is running already, then it is itself that has its ports.
     report.extend(preflight(deployment, plan_, ports=instance is None))
     if not report.has_errors:
-        report.extend(find_outdated(deployment, workspace.middlewares))
+        report.extend(find_outdated(deployment, workspace.middlewares.names))
     return CheckedDeployment(report.sorted(), plan_, ready=not report.has_errors)
 
 

@@ -6,12 +6,14 @@ In: a CDSL file. Out: the files of its folder, written or only compared; finding
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import click
 
 from robocomp_dsl.check.passes import check_cdsl
-from robocomp_dsl.check.workspace.workspace import MIDDLEWARES, Workspace
+from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.diagnostics import Report, did_you_mean
@@ -23,19 +25,33 @@ from robocomp_dsl.model.component import Component
 
 
 class NearestChoice(click.ParamType[str]):
-    """A case-insensitive choice; suggests the nearest name for an unknown one."""
+    """A case-insensitive choice; suggests the nearest name for an unknown one.
 
-    def __init__(self, what: str, names: tuple[str, ...]) -> None:
+    `find` returns the canonical spelling, or None for an unknown name; `names` lists the names.
+    """
+
+    def __init__(
+        self, what: str, find: Callable[[str], str | None], names: Callable[[], Sequence[str]]
+    ) -> None:
         self.name = what
+        self.find = find
         self.names = names
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """The name in its canonical spelling. Fails for an unknown one."""
-        found = next((name for name in self.names if name.lower() == value.lower()), None)
+        found = self.find(value)
         if found is None:
-            hint = did_you_mean(value, self.names) or f"it is one of {', '.join(self.names)}"
+            names = self.names()
+            hint = did_you_mean(value, names) or f"it is one of {', '.join(names)}"
             self.fail(f"there is no {self.name} {value!r}; {hint}", param, ctx)
         return found
+
+
+_MIDDLEWARES = KnownMiddlewares()
+
+
+def _find_language(written: str) -> str | None:
+    return written.lower() if written.lower() in LANGUAGES else None
 
 
 @click.command()
@@ -49,13 +65,13 @@ class NearestChoice(click.ParamType[str]):
 )
 @click.option(
     "--middleware",
-    type=NearestChoice("middleware", MIDDLEWARES),
+    type=NearestChoice("middleware", _MIDDLEWARES.find, _MIDDLEWARES.names),
     metavar="M",
-    help=f"Override the middleware of the file: {', '.join(MIDDLEWARES)}.",
+    help="Override the middleware of the file, such as zenoh.",
 )
 @click.option(
     "--language",
-    type=NearestChoice("target language", tuple(LANGUAGES)),
+    type=NearestChoice("target language", _find_language, lambda: tuple(LANGUAGES)),
     metavar="L",
     help=f"Override the language of the file: {', '.join(LANGUAGES)}.",
 )

@@ -131,7 +131,7 @@ def _port(port: Port, site: DocumentationSite) -> TableRow:
     )
     how = f"{ROLES[port.role]}, optional" if port.optional else ROLES[port.role]
     front = (inline_code(port.name), plain_text(how), site.declaration_link(port.interface))
-    return TableRow((*front, spoken, inline_code(port.middleware)))
+    return TableRow((*front, spoken, join_inlines(map(inline_code, port.middlewares))))
 
 
 def parameter_table(parameters: ParameterSet) -> Iterator[Block]:

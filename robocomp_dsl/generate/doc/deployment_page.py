@@ -25,7 +25,17 @@ from robocomp_dsl.generate.doc.nodes import (
 )
 from robocomp_dsl.generate.doc.prose import flatten_doc, parse_prose
 from robocomp_dsl.generate.doc.site import AnchorNames, DocumentationSite
-from robocomp_dsl.model.deployment import Connection, Deployment, Export, Group, Host, Instance, Qos
+from robocomp_dsl.model.deployment import (
+    Connection,
+    Deployment,
+    Export,
+    External,
+    Group,
+    Host,
+    Instance,
+    Qos,
+)
+from robocomp_dsl.model.port_middlewares import connection_middleware
 
 
 def deployment_page(deployment: Deployment, site: DocumentationSite) -> DocumentationPage:
@@ -36,7 +46,9 @@ def deployment_page(deployment: Deployment, site: DocumentationSite) -> Document
 
 def _blocks(deployment: Deployment, site: DocumentationSite) -> Iterator[Block]:
     file = ("File", inline_code(deployment.path.name))
-    yield FactTable((file, ("Middleware", inline_code(deployment.middleware))))
+    own = plain_text("that of each component")
+    over = inline_code(deployment.middleware) if deployment.middleware else own
+    yield FactTable((file, ("Middleware", over)))
     yield from parse_prose(deployment.doc)
     if deployment.instances:
         yield deployment_figure(deployment, site)
@@ -53,9 +65,14 @@ def _blocks(deployment: Deployment, site: DocumentationSite) -> Iterator[Block]:
     yield from data_table(f"Instances of {deployment.name}", head, rows)
     if deployment.connections:
         yield Heading(2, plain_text("Connections"), "connections")
-    ends = ("from", "to", "interface", "pattern", "quality")
+    ends = ("from", "to", "interface", "pattern", "over", "quality and monitors")
     wires = [TableRow(_connection(connection, site)) for connection in deployment.connections]
     yield from data_table(f"Connections of {deployment.name}", ends, wires)
+    externals = [TableRow(_external(external, site)) for external in deployment.externals]
+    if externals:
+        yield Heading(2, plain_text("External programs"), "externals")
+    columns = ("program", "interface", "how", "over", "address", "what it is")
+    yield from data_table("External programs", columns, externals)
     groups = [TableRow(_group(group)) for group in deployment.groups]
     if groups:
         yield Heading(2, plain_text("Groups"), "groups")
@@ -124,7 +141,30 @@ def _connection(connection: Connection, site: DocumentationSite) -> tuple[Inline
         inline_code(f"{connection.target.name}.{connection.target_port.name}"),
         site.declaration_link(connection.source_port.interface),
         join_inlines((*map(pattern_badge, used), implied), SPACE),
-        plain_text(format_qos(connection.qos)),
+        inline_code(connection_middleware(connection)),
+        join_inlines(_conditions(connection)),
+    )
+
+
+def _conditions(connection: Connection) -> Iterator[Inlines]:
+    """The quality of service, monitors and the condition of a connection."""
+    if qos := format_qos(connection.qos):
+        yield plain_text(qos)
+    for monitor in connection.monitors:
+        yield (PlainText("monitor "), InlineCode(monitor.class_name))
+    if connection.condition:
+        yield (PlainText("when "), InlineCode(connection.condition))
+
+
+def _external(external: External, site: DocumentationSite) -> tuple[Inlines, ...]:
+    port = external.only_port
+    return (
+        inline_code(external.name),
+        site.declaration_link(port.interface),
+        plain_text(str(port.role)),
+        inline_code(external.middleware),
+        inline_code(external.address),
+        flatten_doc(external.doc),
     )
 
 
@@ -133,8 +173,13 @@ def format_qos(qos: Qos) -> str:
     reliable = {True: "reliable", False: "best effort", None: ""}[qos.reliable]
     priority = f"priority {qos.priority}" if qos.priority else ""
     depth = "" if qos.depth is None else f"depth {qos.depth}"
+    keep_all = "keep all" if qos.keep_all else ""
+    latched = "latched" if qos.latched else ""
+    liveliness = "" if qos.liveliness_ms is None else f"liveliness {qos.liveliness_ms:g} ms"
+    thread = "" if qos.thread_priority is None else f"thread priority {qos.thread_priority}"
     deadline = "" if qos.deadline_ms is None else f"deadline {qos.deadline_ms:g} ms"
-    return ", ".join(part for part in (reliable, priority, depth, deadline) if part)
+    parts = (reliable, priority, keep_all, depth, latched, deadline, liveliness, thread)
+    return ", ".join(part for part in parts if part)
 
 
 def _group(group: Group) -> tuple[Inlines, ...]:

@@ -11,7 +11,7 @@ from robocomp_dsl.generate.doc.nodes import Figure
 from robocomp_dsl.generate.doc.site import DocumentationSite
 from robocomp_dsl.generate.doc.target import Target
 from robocomp_dsl.model.component import Component, Port, Role
-from robocomp_dsl.model.deployment import Connection, Deployment, Instance
+from robocomp_dsl.model.deployment import Connection, Deployment, External, Instance
 
 CALL, TOPIC = "call", "topic"
 LEGEND = ((CALL, "calls"), (TOPIC, "publishes to"))
@@ -19,8 +19,9 @@ LEGEND = ((CALL, "calls"), (TOPIC, "publishes to"))
 
 def deployment_figure(deployment: Deployment, site: DocumentationSite) -> Figure:
     """Instances and their connections; connections between the same two instances are one line."""
-    index = {id(instance): i for i, instance in enumerate(deployment.instances)}
-    nodes = [_instance(instance, site) for instance in deployment.instances]
+    shown = (*deployment.instances, *deployment.externals)
+    index = {id(instance): i for i, instance in enumerate(shown)}
+    nodes = [_instance(instance, site) for instance in shown]
     bundles: dict[tuple[int, int, str], list[Connection]] = {}
     for connection in deployment.connections:
         kind = TOPIC if connection.source_port.role.is_topic else CALL
@@ -31,13 +32,16 @@ def deployment_figure(deployment: Deployment, site: DocumentationSite) -> Figure
         for (source, target, kind), wires in bundles.items()
     ]
     title = f"Components of {deployment.name} and their connections"
-    count = f"{len(nodes)} components, {len(deployment.connections)} connections"
+    count = f"{len(deployment.instances)} components, {len(deployment.connections)} connections"
     drawing = draw_graph(title, count, nodes, edges)
     return Figure(f"{site.page(deployment)}.graph", drawing, _legend(edges))
 
 
 def _instance(instance: Instance, site: DocumentationSite) -> GraphNode:
     host = f" on {instance.host.name}" if instance.host.name else ""
+    if isinstance(instance, External):
+        below = f"over {instance.middleware}"
+        return GraphNode(instance.name, "interface", None, below, instance.address or below)
     if instance.is_program:
         return GraphNode(instance.name, "component", None, f"program{host}", instance.executable)
     component = instance.component.name

@@ -57,7 +57,8 @@ class ServedCode(ValueRecord):
 class PortCode(ValueRecord):
     """One port in the specification. `target` is the interface, or the proxy class.
 
-    `methods` are operations and methods of a served port; `attribute` is the proxy's attribute.
+    `methods` are operations and methods of a served port; `attribute` is the proxy's attribute;
+    `middlewares` is a tuple as code, or empty.
     """
 
     name: str
@@ -135,7 +136,8 @@ def machine_of(component: Component) -> MachineCode | None:
 def _port(port: Port, py_names: PythonNames) -> PortCode:
     interface = py_names.interfaces[port.interface]
     name = literals.quoted(port.name)
-    middlewares = f"({literals.quoted(port.middleware)},)" if port.middleware else ""
+    marks = [literals.quoted(mark) for mark in port.middlewares]
+    middlewares = f"({', '.join(marks)}{',' * (len(marks) == 1)})" if marks else ""
     if port in py_names.proxies:
         attribute = literals.quoted(py_names.proxies[port])
         return PortCode(name, interface.proxy, "", attribute, middlewares)

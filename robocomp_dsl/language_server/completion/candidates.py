@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from lsprotocol import types as lsp
 
+from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.diagnostics import Fix
 from robocomp_dsl.language_server.symbols.symbol import Symbol
 
@@ -29,3 +31,11 @@ class CompletionCandidate:
 def value_candidates(*labels: str) -> list[CompletionCandidate]:
     """Candidates for fixed words."""
     return [CompletionCandidate(label, lsp.CompletionItemKind.Value) for label in labels]
+
+
+def middleware_candidates(middlewares: KnownMiddlewares) -> Iterator[CompletionCandidate]:
+    """All middlewares with their summaries."""
+    for name in middlewares.names():
+        description = middlewares.describe(name)
+        summary = description.summary if description else ""
+        yield CompletionCandidate(name, lsp.CompletionItemKind.Value, summary)

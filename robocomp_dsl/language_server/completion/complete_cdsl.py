@@ -8,7 +8,11 @@ from lsprotocol import types as lsp
 
 from robocomp_dsl.check.names.suggest import add_import
 from robocomp_dsl.check.workspace.import_resolver import base_name
-from robocomp_dsl.language_server.completion.candidates import CompletionCandidate, value_candidates
+from robocomp_dsl.language_server.completion.candidates import (
+    CompletionCandidate,
+    middleware_candidates,
+    value_candidates,
+)
 from robocomp_dsl.language_server.completion.complete_idsl import declaration_candidates
 from robocomp_dsl.language_server.completion.context import CompletionContext
 from robocomp_dsl.language_server.session import Session
@@ -32,13 +36,19 @@ def candidates(session: Session, context: CompletionContext) -> Iterator[Complet
     previous = context.previous_kind
     if previous == "LANGUAGE":
         yield from value_candidates(*LANGUAGES)
-    elif previous == "MIDDLEWARE" or (previous == "LPAR" and kinds[0] in ROLES):
-        yield from value_candidates(*session.workspace.middlewares)
+    elif previous == "MIDDLEWARE" or (kinds and kinds[0] in ROLES and _in_mark(kinds)):
+        yield from middleware_candidates(session.workspace.middlewares)
     elif previous == "_SCOPE":
         yield from declaration_candidates(modules, (Interface,), module=context.statement[-2].text)
     elif previous in (*ROLES, "COMMA") and kinds[0] in ROLES:
         yield from declaration_candidates(modules, (Interface,))
         yield from _importable(session, context)
+
+
+def _in_mark(kinds: list[str]) -> bool:
+    """Whether a name in the parentheses of a port is expected next."""
+    last_mark = max((i for i, kind in enumerate(kinds) if kind == "LPAR"), default=-1)
+    return last_mark >= 0 and "RPAR" not in kinds[last_mark:] and kinds[-1] in ("LPAR", "COMMA")
 
 
 def _importable(session: Session, context: CompletionContext) -> Iterator[CompletionCandidate]:

@@ -14,6 +14,7 @@ from robocomp_dsl.language_server.session import Session
 SUFFIXES = {
     "PARAMETERS": (".pdsl",),
     "STATEMACHINE": (".smdsl", ".scxml"),
+    "MONITOR": (".py",),
     "CONFIG": (".yaml", ".yml", ".toml"),
 }
 """Keyword before the string to the suffixes of the files that it accepts."""

@@ -28,7 +28,7 @@ def registration(capabilities: lsp.ClientCapabilities) -> lsp.RegistrationParams
     watching = capabilities.workspace.did_change_watched_files if capabilities.workspace else None
     if not watching or not watching.dynamic_registration:
         return None
-    watched = [lsp.FileSystemWatcher(f"**/*{suffix}") for suffix in sorted(CHECKS)]
+    watched = [lsp.FileSystemWatcher(f"**/*{suffix}") for suffix in (*sorted(CHECKS), ".py")]
     options = lsp.DidChangeWatchedFilesRegistrationOptions(watched)
     method = lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES
     return lsp.RegistrationParams([lsp.Registration("rcgen-files", method, options)])

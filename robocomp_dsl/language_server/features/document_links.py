@@ -74,3 +74,8 @@ def _relative_paths(tree: object) -> Iterator[Text]:
         case ddsl.File(deployment=ddsl.Deployment() as deployment):
             yield from (statement.path for statement in tree.imports)
             yield from (i.config for i in deployment.instances if i.config)
+            blocks: list[ddsl.Deployment | ddsl.Group] = [deployment]
+            while blocks:
+                block = blocks.pop()
+                blocks.extend(block.groups)
+                yield from (m.file for wire in block.connections for m in wire.monitors)

@@ -36,6 +36,8 @@ KINDS: dict[type, lsp.SymbolKind] = {
     ddsl.Host: lsp.SymbolKind.Object,
     ddsl.Instance: lsp.SymbolKind.Object,
     ddsl.Connection: lsp.SymbolKind.Event,
+    ddsl.External: lsp.SymbolKind.Object,
+    ddsl.Arbitration: lsp.SymbolKind.Event,
     innermodel.Element: lsp.SymbolKind.Object,
     smdsl.Machine: lsp.SymbolKind.Class,
     smdsl.Substates: lsp.SymbolKind.Namespace,
@@ -101,6 +103,8 @@ def _name(node: Node) -> tuple[str, Span]:
             ends = (node.source, node.target)
             words = [f"{end.instance.text}.{end.port.text}" for end in ends]
             return " → ".join(words), node.source.span
+        case ddsl.Arbitration(target=target):
+            return f"{target.instance.text}.{target.port.text}", target.span
         case innermodel.Element():
             own = node.get("id") or node.get("name")
             return (own.value.value, own.value.span) if own else (node.tag.text, node.tag.span)

@@ -1,4 +1,7 @@
-"""Hover: the signature and doc comment of a name; in InnerModel also of tags and attributes."""
+"""Hover: the signature and doc comment of a name; what a middleware can do.
+
+In InnerModel also the documentation of tags and attributes.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,10 @@ from robocomp_dsl.language_server.completion import innermodel_reference
 from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.language_server.signatures.signatures import doc_of, signature
 from robocomp_dsl.language_server.symbols.lookup import occurrences_at, resolve_position
+from robocomp_dsl.language_server.symbols.middleware_names import (
+    describe_middleware,
+    middleware_names,
+)
 from robocomp_dsl.language_server.symbols.symbol import Symbol
 from robocomp_dsl.language_server.symbols.symbols_innermodel import elements
 from robocomp_dsl.source import Span
@@ -24,6 +31,11 @@ def hover(session: Session, params: lsp.HoverParams) -> lsp.Hover | None:
         return lsp.Hover(markup, session.positions.range_of(occurrence.span))
     path, offset = resolve_position(session, params.text_document, params.position)
     tree = session.parsed(path).tree
+    for name in middleware_names(tree):
+        text = describe_middleware(name.text, session.workspace.middlewares)
+        if _touches(name.span, offset) and text:
+            markup = lsp.MarkupContent(lsp.MarkupKind.Markdown, text)
+            return lsp.Hover(markup, session.positions.range_of(name.span))
     documented = _documentation_at(tree, offset) if isinstance(tree, XmlFile) else None
     if documented is None:
         return None

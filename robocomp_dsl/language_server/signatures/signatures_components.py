@@ -8,7 +8,7 @@ from typing import Any
 from robocomp_dsl.language_server.signatures.signatures_block import format_block
 from robocomp_dsl.language_server.signatures.signatures_idsl import format_interface
 from robocomp_dsl.model.component import Component, Port
-from robocomp_dsl.model.deployment import Deployment, Host, Instance
+from robocomp_dsl.model.deployment import Connection, Deployment, External, Host, Instance
 from robocomp_dsl.model.parameter import Kind, Parameter, ParameterSet
 
 
@@ -59,8 +59,8 @@ def _component(component: Component) -> str:
 
 def _port(port: Port) -> str:
     name = "" if port.name == port.interface.name else f" as {port.name}"
-    middleware = f"({port.middleware})" if port.middleware else ""
-    return f"{port.role} {port.interface.qualified}{middleware}{name};"
+    mark = f"({', '.join(port.middlewares)})" if port.middlewares else ""
+    return f"{port.role} {port.interface.qualified}{mark}{name};"
 
 
 def _port_with_interface(port: Port) -> str:
@@ -72,7 +72,17 @@ def _instance(instance: Instance) -> str:
     if instance.is_program:
         return f"program {instance.name}{host}    // {instance.executable}"
     head = f"component {instance.name} : {instance.component.name}{host}\n"
-    return head + _prefix(instance) + _component(instance.component)
+    over = f"middleware {instance.middleware};\n" if instance.middleware else ""
+    return head + _prefix(instance) + over + _component(instance.component)
+
+
+def _external(external: External) -> str:
+    port = external.only_port
+    at = f' at "{external.address}"' if external.address else ""
+    return (
+        f"extern {external.name} over {external.middleware}{at} "
+        f"{port.role} {port.interface.qualified};"
+    )
 
 
 def _prefix(instance: Instance) -> str:
@@ -86,15 +96,19 @@ def _host(host: Host) -> str:
 
 
 def _deployment(deployment: Deployment) -> str:
-    connections = [
-        f"connect {c.source.name}.{c.source_port.name} -> {c.target.name}.{c.target_port.name};"
-        for c in deployment.connections
-    ]
+    connections = [_connection(connection) for connection in deployment.connections]
+    externals = [_external(external) for external in deployment.externals]
     instances = [
         f"program {i.name};" if i.is_program else f"component {i.name} : {i.component.name};"
         for i in deployment.instances
     ]
-    return format_block(f"Deployment {deployment.name}", instances + connections)
+    return format_block(f"Deployment {deployment.name}", instances + externals + connections)
+
+
+def _connection(c: Connection) -> str:
+    over = f" over {c.middleware}" if c.middleware else ""
+    ends = f"{c.source.name}.{c.source_port.name} -> {c.target.name}.{c.target_port.name}"
+    return f"connect {ends}{over};"
 
 
 SIGNATURES: dict[type, Callable[[Any], str]] = {
@@ -103,6 +117,7 @@ SIGNATURES: dict[type, Callable[[Any], str]] = {
     Component: _component,
     Port: _port_with_interface,
     Instance: _instance,
+    External: _external,
     Host: _host,
     Deployment: _deployment,
 }

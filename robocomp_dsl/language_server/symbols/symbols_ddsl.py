@@ -19,6 +19,7 @@ from robocomp_dsl.language_server.symbols.symbols_cdsl import (
 from robocomp_dsl.language_server.symbols.symbols_idsl import declaration_symbol
 from robocomp_dsl.language_server.symbols.symbols_pdsl import parameter_symbol
 from robocomp_dsl.model.component import Component
+from robocomp_dsl.model.deployment import External
 from robocomp_dsl.model.parameter import Parameter
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.ast import ddsl as ast
@@ -40,9 +41,11 @@ def index_file(path: Path, workspace: Workspace) -> tuple[Source, bool, list[Occ
     if deployment:
         model_objects = {instance.span.start: instance for instance in deployment.instances}
         model_objects |= {host.span.start: host for host in deployment.hosts if host.span}
+        model_objects |= {external.span.start: external for external in deployment.externals}
     symbol = Symbol(tree.name.text, "deployment", tree.name.span, deployment)
     collector = _OccurrenceCollector(imported.components, model_objects, tree.name.text, workspace)
     occurrences = [Occurrence(symbol.span, symbol, declares=True), *collector.of_hosts(tree)]
+    occurrences += collector.of_externals(tree)
     occurrences += collector.of_block(tree)
     return file.source, file.tree.complete, occurrences
 
@@ -62,12 +65,23 @@ class _OccurrenceCollector:
         self._container = container
         self._workspace = workspace
         self._hosts: dict[str, Symbol] = {}
+        self._externals: dict[str, Symbol] = {}
 
     def of_hosts(self, tree: ast.Deployment) -> Iterator[Occurrence]:
         """The hosts, which are also visible in groups."""
         for host in tree.hosts:
             self._hosts[host.name.text] = self._symbol(host.name, "host")
             yield Occurrence(host.name.span, self._hosts[host.name.text], declares=True)
+
+    def of_externals(self, tree: ast.Deployment) -> Iterator[Occurrence]:
+        """The external programs, which are also visible in groups."""
+        for external in tree.externals:
+            symbol = self._symbol(external.name, "external program")
+            self._externals[external.name.text] = symbol
+            yield Occurrence(external.name.span, symbol, declares=True)
+            if isinstance(symbol.model_object, External):
+                interface = symbol.model_object.only_port.interface
+                yield Occurrence(external.interface.name.span, declaration_symbol(interface))
 
     def of_block(self, tree: ast.Deployment | ast.Group) -> Iterator[Occurrence]:
         """All occurrences in a deployment or a group."""
@@ -81,7 +95,10 @@ class _OccurrenceCollector:
         }
         for instance in tree.instances:
             yield from self._instance(instance, instances)
+        instances = {**self._externals, **instances}
         ends = [end for c in tree.connections for end in (c.source, c.target)]
+        for arbitration in tree.arbitrations:
+            ends += [arbitration.target, *(c.source for c in arbitration.candidates)]
         if isinstance(tree, ast.Group):
             ends += [export.target for export in tree.exports]
         for end in ends:
@@ -89,6 +106,10 @@ class _OccurrenceCollector:
             component = self._components.get(kinds.get(end.instance.text, ""))
             if component:
                 yield from _port_occurrence(end.port, component, self._workspace)
+            program = instances.get(end.instance.text)
+            if program and isinstance(program.model_object, External):
+                interface = program.model_object.only_port.interface
+                yield Occurrence(end.port.span, declaration_symbol(interface))
 
     def _symbol(self, name: Name, kind: str) -> Symbol:
         model_object = self._model_objects.get(name.span.start)
@@ -107,6 +128,9 @@ class _OccurrenceCollector:
             yield from _name_occurrence(tree.host, self._hosts)
         for name in tree.after:
             yield from _name_occurrence(name, known)
+        if component:
+            for own_port in tree.own_ports:
+                yield from _port_occurrence(own_port.port, component, self._workspace)
         if component and component.parameters:
             for setting in tree.settings:
                 yield from _key_occurrences(

@@ -15,7 +15,7 @@ bytes decoders raise `MalformedMessage` and no other exception.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, TypeAlias, TypeVar, cast
 
 from robocomp_dsl.runtime.codec.decoder import decoder_function
@@ -30,12 +30,19 @@ Buffer: TypeAlias = bytes | bytearray | memoryview
 R = TypeVar("R", bound=Struct)
 
 
-def compile_encoder(fields: Fields, *, result: bool = False) -> Callable[[Any], bytes]:
+def compile_encoder(
+    fields: Fields,
+    *,
+    result: bool = False,
+    join: Callable[[Iterable[Any]], Any] = b"".join,
+) -> Callable[[Any], Any]:
     """A function from the tuple of the fields' values to a message; raises `EncodeError`.
 
     With `result` it accepts the result of a method: None, a single value, or a tuple of several.
+    `join` makes the message of its parts, buffers that include the memory of arrays; it is not
+    called for a message of one part, which is bytes.
     """
-    return encoder_function(fields, _form(fields, result))
+    return encoder_function(fields, _form(fields, result), join)
 
 
 def compile_decoder(fields: Fields, *, result: bool = False) -> Callable[[Buffer], Any]:
@@ -62,7 +69,7 @@ def decode(type_: type[R], message: Buffer) -> R:
 
 @once
 def _encoder_of(type_: type[Struct]) -> Callable[[Any], bytes]:
-    return compile_encoder((("", type_),), result=True)
+    return encoder_function((("", type_),), "one")
 
 
 @once
@@ -79,7 +86,7 @@ def compile_error_encoder(
     def encode_error(error: DeclaredError) -> bytes:
         for index, throw in enumerate(throws):
             if isinstance(error, throw):
-                return encoders[index]((index, error))
+                return cast("bytes", encoders[index]((index, error)))
         raise EncodeError(f"{type(error).__name__} is not declared by the operation")
 
     return encode_error

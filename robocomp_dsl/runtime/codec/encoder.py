@@ -14,7 +14,7 @@ For a pose with a string in its header the body is, apart from names:
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -40,9 +40,15 @@ _FILLS = tuple(map(bytes, range(8)))
 _GAPS = (b"", None, None, None, bytes(4))  # padding before numbers of 8 bytes: 0 or 4
 
 
-def encoder_function(fields: Fields, form: str) -> Callable[[Any], bytes]:
-    """The encoder; `form` is the form of the values: `none`, `one` or `tuple`."""
+def encoder_function(
+    fields: Fields, form: str, join: Callable[[Iterable[Any]], Any] = b"".join
+) -> Callable[[Any], Any]:
+    """The encoder; `form` is the form of the values: `none`, `one` or `tuple`.
+
+    `join` makes the message of its parts.
+    """
     writer = _Encoder()
+    writer.names["join"] = join
     writer.message(fields, form)
 
     def failed(values: Any, failure: Exception) -> Exception:

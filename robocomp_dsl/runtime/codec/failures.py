@@ -9,16 +9,25 @@ from __future__ import annotations
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.user_errors import describe_error, message_of
 from robocomp_dsl.runtime.errors import (
+    CallRejected,
     DeclaredError,
     EncodeError,
     InterfaceMismatch,
     MalformedMessage,
+    RejectedByReceiver,
     RemoteError,
     Timeout,
 )
 
 _DECLARED = b"RCD"
-_TEXTS = {InterfaceMismatch: b"RCI", MalformedMessage: b"RCM", RemoteError: b"RCR"}
+_TEXTS = {
+    InterfaceMismatch: b"RCI",
+    MalformedMessage: b"RCM",
+    RejectedByReceiver: b"RCJ",
+    RemoteError: b"RCR",
+}
+_PLAIN = {b"RCI": InterfaceMismatch, b"RCJ": CallRejected}
+"""Kinds whose message is complete."""
 
 
 def encode_failure(operation: Operation, error: BaseException) -> bytes:
@@ -45,8 +54,9 @@ def decode_failure(operation: Operation, server: str, data: bytes, timeout: floa
     what = f"{server}.{operation.name}"
     if data == b"Timeout":
         return Timeout(f"{what} did not reply within {timeout:g} s")
-    if data.startswith(_TEXTS[InterfaceMismatch]):
-        return InterfaceMismatch(text)
+    plain = _PLAIN.get(data[:3])
+    if plain:
+        return plain(text)
     if data.startswith(_TEXTS[MalformedMessage]):
         return MalformedMessage(f"{what} could not decode the request: {text}")
     if not data.startswith(_TEXTS[RemoteError]):

@@ -13,6 +13,7 @@ from typing import TypeVar
 ANY = "*"
 """Wildcard for a component: any component on the same branch."""
 _INNER_DISTANCE = 1000
+_FROM = " from "
 
 _T = TypeVar("_T")
 
@@ -22,6 +23,25 @@ def resolve_name(prefix: str, name: str) -> str:
     if name.startswith("/"):
         return name[1:]
     return f"{prefix}/{name}" if prefix and not name.startswith(ANY) else name
+
+
+def connection_port(port: str, peer: str) -> str:
+    """The name of the own port that the connection of `port` with `peer` (`component.Port`) has.
+
+    A monitored connection has one; only the peer that names it connects to it.
+    """
+    component, _, peer_port = peer.rpartition(".")
+    return f"{port}{_FROM}{component}:{peer_port}"
+
+
+def is_connection_port(port: str) -> bool:
+    """Whether the port is one of a connection; users cannot write such a name."""
+    return _FROM in port
+
+
+def port_of_connection(port: str) -> str:
+    """The port that a connection port belongs to; any other port itself."""
+    return port.partition(_FROM)[0]
 
 
 def namespace_of(component: str) -> str:

@@ -105,6 +105,11 @@ class LeaderFollowerQueue:
                 self._start()
         self._leader_lock.release()
 
+    @property
+    def is_running(self) -> bool:
+        """Whether a thread has not ended."""
+        return any(thread.is_alive() for thread in self._threads)
+
     def join(self, timeout: float) -> bool:
         """Wait for the threads to exit (`take` must raise); returns whether they did."""
         me = threading.current_thread()

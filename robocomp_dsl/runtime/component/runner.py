@@ -36,6 +36,7 @@ from robocomp_dsl.runtime.component.user_errors import add_user_folder, describe
 from robocomp_dsl.runtime.component.watchdog import CallbackWatchdog
 from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
+from robocomp_dsl.runtime.connection.monitor_setup import load_monitors, monitored_ports
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA
 from robocomp_dsl.runtime.machine import Machine
@@ -80,6 +81,7 @@ class Runner:
         self._failed = False
         self._stop_requests: SimpleQueue[None] = SimpleQueue()
         self._ended = threading.Event()
+        self.monitors = load_monitors(self.spec, settings)
         host = ComponentContext(
             self.name,
             settings.domain,
@@ -100,8 +102,10 @@ class Runner:
         self._clock_binding = create_clock(
             settings.clock.with_prefix(settings.prefix), owner, self.ports
         )
+        clock = clock or self._clock_binding.clock
+        self._ports = monitored_ports(self._clock_binding.ports, self.monitors, clock)
         self.notifier = SystemdNotifier()
-        self.worker = self._create_worker(component, clock or self._clock_binding.clock)
+        self.worker = self._create_worker(component, clock)
         self.lifecycle = Lifecycle(
             self.worker,
             self.spec.period,
@@ -161,8 +165,7 @@ class Runner:
         for port in (*self.spec.requires, *self.spec.publishes):
             publishes = port in self.spec.publishes
             at = self._endpoint(port, port.proxy.INTERFACE, outgoing=not publishes)
-            ports = self._clock_binding.ports
-            link = ports.advertise(at) if publishes else ports.proxy(at)
+            link = self._ports.advertise(at) if publishes else self._ports.proxy(at)
             setattr(worker, port.attribute, port.proxy(link))
         self.params.bind(worker)
         return worker
@@ -196,9 +199,9 @@ class Runner:
     def _open(self) -> None:
         """Serve and subscribe all ports."""
         for port in self.spec.implements:
-            self._serve(port, self._clock_binding.ports.serve)
+            self._serve(port, self._ports.serve)
         for port in self.spec.subscribes:
-            self._serve(port, self._clock_binding.ports.subscribe, outgoing=True)
+            self._serve(port, self._ports.subscribe, outgoing=True)
         self._clock_binding.open()
 
     def _serve(
@@ -296,6 +299,8 @@ class Runner:
             self.watchdog.stop()
         self.ports.publish_state("")
         self.ports.close()
+        if self.monitors:
+            self.monitors.destroy()
         return not self.abandoned and self._succeeded and not self._failed
 
     def _abandon_hook(self, timeout: float) -> None:

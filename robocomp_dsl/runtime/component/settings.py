@@ -9,11 +9,15 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from robocomp_dsl.runtime.component.naming import ANY, resolve_name
 from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.time.clock_settings import ClockSettings
+
+if TYPE_CHECKING:
+    from robocomp_dsl.runtime.connection.monitor_settings import ConnectionMonitors
 
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]{0,99}")
 PORT = re.compile(r"[A-Za-z_][A-Za-z0-9_-]{0,99}")
@@ -66,6 +70,7 @@ class RunSettings:
     listen_port: int = 0
     watchdog: float | None = None
     clock: ClockSettings = field(default_factory=ClockSettings)
+    monitors: tuple[ConnectionMonitors, ...] = ()
 
     def full_name(self, component: str) -> str:
         """The full name of the instance; `component` is the default name."""
@@ -210,7 +215,10 @@ def parse_connections(texts: Iterable[str]) -> dict[str, tuple[str, ...]]:
 
 
 def parse_qos(texts: Iterable[str]) -> dict[str, Qos]:
-    """`PORT=best_effort,depth=1,priority=high,deadline=40` (ms). Raises `InvalidSetting`."""
+    """`PORT=best_effort,depth=1,priority=high,deadline=40` (ms). Raises `InvalidSetting`.
+
+    `PORT/PEER=…` is the quality of service of one connection; its key is `PORT/PEER`.
+    """
     parsed: dict[str, Qos] = {}
     for text in texts:
         port, separator, items = text.partition("=")

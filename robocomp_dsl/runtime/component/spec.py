@@ -26,7 +26,10 @@ class ServedPort:
 
 @dataclass(frozen=True, slots=True)
 class CalledPort:
-    """An interface that this component calls or publishes, through the proxy at `attribute`."""
+    """An interface that this component calls or publishes, through the proxy at `attribute`.
+
+    `middlewares` are as in `ServedPort`.
+    """
 
     name: str
     proxy: type[Proxy]

@@ -22,7 +22,7 @@ from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL, Operation
 from robocomp_dsl.runtime.component.user_errors import log_failure
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import OperationCallable
-from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, Timeout
+from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, RejectedByReceiver, Timeout
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.losses import LossCounter
@@ -110,11 +110,11 @@ class IncomingOperation:
     def report(self, error: BaseException) -> None:
         """Count and log a message that failed: malformed, or its handler or result failed.
 
-        A declared exception of a query is a result: it is only counted.
+        A declared exception of a query, and a rejection by a monitor, is only counted.
         """
         counts = self.counts
         counts.failures += 1
-        if isinstance(error, self.operation.throws):
+        if isinstance(error, (*self.operation.throws, RejectedByReceiver)):
             return
         what = f"{counts.port}.{counts.operation}"
         if isinstance(error, EncodeError):
@@ -176,7 +176,9 @@ class IncomingPort:
         receiver = LeaderFollowerQueue(
             name, take, handle, self.callback_group, self.fail, closed_error
         )
-        self._receivers.append(receiver)
+        # Some transports have one for each connection: forget those that have ended.
+        running = [each for each in self._receivers if each.is_running]
+        self._receivers = [*running, receiver]
         return receiver
 
     def join(self, timeout: float) -> None:

@@ -10,7 +10,13 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeVar
 
-from robocomp_dsl.runtime.component.naming import ANY, distance, nearest, on_same_branch
+from robocomp_dsl.runtime.component.naming import (
+    ANY,
+    distance,
+    is_connection_port,
+    nearest,
+    on_same_branch,
+)
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import OperationCallable
@@ -26,7 +32,11 @@ _T = TypeVar("_T")
 def matches(at: Endpoint, component: str, port: str) -> bool:
     """Whether `at` is connected to this port, or may discover it."""
     wired = at.peers
-    if component in wired or f"{component}.{port}" in wired:
+    if f"{component}.{port}" in wired:
+        return True
+    if is_connection_port(port):
+        return False
+    if component in wired:
         return True
     any_peer = not wired and not at.external
     return (any_peer or f"{ANY}.{port}" in wired) and on_same_branch(at.component, component)

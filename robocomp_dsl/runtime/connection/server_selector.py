@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Iterable
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.naming import port_of_connection
 from robocomp_dsl.runtime.connection import peer_selection
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.peer_selection import (
@@ -109,8 +110,19 @@ class ServerSelector:
             raise NoServer(f"{self.at.component} is stopping")
         found = self._candidates()
         if not found:
+            self._check_arbitrated()
             select_server(self.at, ())
         return found
+
+    def _check_arbitrated(self) -> None:
+        """Raise `NoServer` if the server exists, but this port has no connection with it."""
+        for record in self._registry.find("server", self.at.interface.name):
+            port = port_of_connection(record.port)
+            if port != record.port and matches(self.at, record.component, port):
+                raise NoServer(
+                    f"{record.component}.{port} is arbitrated: it accepts its connections only, and"
+                    f" {self.at.name} has none"
+                )
 
     def _matches(self, record: PortRecord) -> bool:
         return matches(self.at, record.component, record.port) and self._is_usable(record)

@@ -24,6 +24,8 @@ from robocomp_dsl.runtime.presence.port_registry import PortRegistry
 
 Connect: TypeAlias = Callable[[Endpoint, PortRecord, float], ServiceClient]
 DEFAULT_TIMEOUT_S = 10.0
+LOST_TIMEOUT_S = 0.5
+"""The presence reports the end of a server at most so long after its connections broke."""
 
 
 class ServiceChannel:
@@ -114,7 +116,7 @@ class ServiceChannel:
         return query
 
     def _command(self, operation: Operation, counts: OperationCounts) -> OperationCallable:
-        registry = self._registry
+        group, registry = self._context.callback_group, self._registry
         version = -1
         encode: Any = None
         send: Any = None
@@ -130,6 +132,10 @@ class ServiceChannel:
                 send(encode(arguments) if encode else arguments)
             except ServerLost:
                 counts.failures += 1
+                paused = group.pause()
+                self._wait_until_lost()
+                if paused:
+                    group.resume(paused)
                 raise self._server_lost(operation) from None
             except BaseException:
                 counts.failures += 1
@@ -166,6 +172,7 @@ class ServiceChannel:
         self, operation: Operation, counts: OperationCounts, arguments: tuple[Any, ...]
     ) -> Any:
         """No reply arrived: call the next server if the operation is idempotent."""
+        self._wait_until_lost()
         self._forget_external()
         if operation.idempotent and not self._registry.closed:
             bound = self._bind(operation, counts, self._timeout)
@@ -174,6 +181,12 @@ class ServiceChannel:
             except ServerLost:
                 self._forget_external()
         raise self._server_lost(operation)
+
+    def _wait_until_lost(self) -> None:
+        """The connection may break before the presence reports it: do not select it again."""
+        server = self._server
+        if server is not None and server not in self._at.external:
+            self._registry.wait_lost(server, LOST_TIMEOUT_S)
 
     def _forget_external(self) -> None:
         """Connect an external server again for the next call: no presence reports its restart."""

@@ -26,6 +26,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from robocomp_dsl.runtime.file_lock import FileLock, try_lock, wait_for_lock
+from robocomp_dsl.runtime.presence.stale_sockets import sweep_sockets
 from robocomp_dsl.runtime.private_folder import (
     UnsafeFolder,
     private_folder,
@@ -156,6 +157,9 @@ def _delete_if_unused(folder: Path) -> None:
     for path in folder.iterdir():
         if path.suffix in _NAMES and (lock := try_lock(path)):
             lock.release(delete=True)
+        elif path.is_dir():  # the folder of a middleware
+            sweep_sockets(path)
+            path.rmdir()
     if {path.name for path in folder.iterdir()} <= {_LOCK}:
         (folder / _LOCK).unlink(missing_ok=True)
         folder.rmdir()

@@ -103,6 +103,15 @@ class PortRegistry:
             self._changed.wait_for(lambda: fitting() or self.closed, max(seconds, 0.0))
             return fitting()
 
+    def wait_lost(self, record: PortRecord, seconds: float) -> None:
+        """Wait until the port is lost, at most `seconds`: its connection may break before."""
+
+        def lost() -> bool:
+            return self.closed or record not in self._records.values()
+
+        with self._changed:
+            self._changed.wait_for(lost, seconds)
+
     def interrupt(self) -> None:
         """Wake all waiting threads, and report all ports as lost."""
         with self._changed:

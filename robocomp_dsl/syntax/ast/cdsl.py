@@ -12,14 +12,14 @@ Role: TypeAlias = Literal["implements", "requires", "subscribesTo", "publishes"]
 class Port(Node):
     """One interface of a list: `requires Laser(ice) as front optional` gives a port.
 
-    `role` is spelled as in `Role` whatever case the user wrote; `optional` is the keyword, if
-    present.
+    `role` is spelled as in `Role` whatever case the user wrote; `middlewares` are in order of
+    preference; `optional` is the keyword, if present.
     """
 
     role: Role
     interface: QualifiedName
     alias: Name | None = None
-    middleware: Name | None = None
+    middlewares: tuple[Name, ...] = ()
     optional: Name | None = None
 
 

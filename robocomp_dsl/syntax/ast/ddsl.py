@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from robocomp_dsl.syntax.ast.base import Duration, Import, Literal, Name, Node, Number, Text
+from robocomp_dsl.syntax.ast.base import (
+    Duration,
+    Import,
+    Literal,
+    Name,
+    Node,
+    Number,
+    QualifiedName,
+    Text,
+)
 
 
 class Host(Node):
@@ -81,6 +90,14 @@ class Action(Node):
     by: Name | None = None
 
 
+class OwnPort(Node):
+    """`port Laser over ice at "tcp -p 10001";`: the middleware and address of a port."""
+
+    port: Name
+    over: Name
+    address: Text | None = None
+
+
 class Instance(Node):
     """`component reflex : reflex on robot { … };`.
 
@@ -110,6 +127,8 @@ class Instance(Node):
     memory: Memory | None = None
     cpu: Number | None = None
     watchdog: Duration | None = None
+    middleware: Name | None = None
+    own_ports: tuple[OwnPort, ...] = ()
     doc: str = ""
     is_program: bool = False
 
@@ -122,23 +141,84 @@ class PortRef(Node):
 
 
 class Qos(Node):
-    """`{ best_effort; depth 1; deadline 40 ms; priority high; }`; unset values are None.
+    """`best_effort; keep last 1; deadline 40 ms; priority high;`; unset values are None.
 
-    `reliability.text` is `reliable` or `best_effort`.
+    `reliability.text` is `reliable` or `best_effort`; `depth` is also that of `keep last N`.
     """
 
     reliability: Name | None = None
     priority: Name | None = None
     depth: Number | None = None
+    keep_all: Name | None = None
+    latched: Name | None = None
     deadline: Duration | None = None
+    liveliness: Duration | None = None
+    thread_priority: Number | None = None
+
+
+class Argument(Node):
+    """`max = 3;`: an argument of a monitor."""
+
+    name: Name
+    value: Literal
+
+
+class Monitor(Node):
+    """`monitor "limits.py" Limit { max = 3; } at receiver on failure close;`.
+
+    `class_name` is a class in the file; `at.text` is `sender` or `receiver`, `on_failure.text` is
+    `bypass` or `close`.
+    """
+
+    file: Text
+    class_name: Name
+    arguments: tuple[Argument, ...] = ()
+    at: Name | None = None
+    on_failure: Name | None = None
 
 
 class Connection(Node):
-    """`connect reflex.Skin -> body.Skin { … };`; `qos` is None without braces."""
+    """`connect reflex.Skin -> body.Skin over local { … };`; `qos` is None without braces."""
 
     source: PortRef
     target: PortRef
+    over: Name | None = None
     qos: Qos | None = None
+    monitors: tuple[Monitor, ...] = ()
+
+
+class Condition(Node):
+    """`seen && !(stop || fault)`; `events` are the names in it, and the text is that of `span`."""
+
+    events: tuple[Name, ...]
+
+
+class Candidate(Node):
+    """`from face.Target when seen;`: one connection into a port that is arbitrated."""
+
+    source: PortRef
+    condition: Condition
+
+
+class Arbitration(Node):
+    """`arbitrate gaze.Target { from face.Target when seen; … };`."""
+
+    target: PortRef
+    candidates: tuple[Candidate, ...]
+
+
+class External(Node):
+    """`extern laser over ice at "laser:tcp -h 10.0.0.2 -p 10001" implements Laser;`.
+
+    `role.text` is as written: `implements`, `requires`, `publishes` or `subscribesTo`.
+    """
+
+    name: Name
+    over: Name
+    address: Text | None
+    role: Name
+    interface: QualifiedName
+    doc: str = ""
 
 
 class Export(Node):
@@ -164,6 +244,7 @@ class Group(Node):
     connections: tuple[Connection, ...] = ()
     exports: tuple[Export, ...] = ()
     groups: tuple[Group, ...] = ()
+    arbitrations: tuple[Arbitration, ...] = ()
     doc: str = ""
 
 
@@ -192,6 +273,8 @@ class Deployment(Node):
     instances: tuple[Instance, ...] = ()
     connections: tuple[Connection, ...] = ()
     groups: tuple[Group, ...] = ()
+    externals: tuple[External, ...] = ()
+    arbitrations: tuple[Arbitration, ...] = ()
     doc: str = ""
 
 

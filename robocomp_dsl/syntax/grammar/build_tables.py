@@ -29,7 +29,7 @@ _WORD = re.compile(r"[A-Za-z_]\w*")
 # well), and punctuation, which differs between the languages.
 _FIRST = {"MERGE_MARK": r"^(?:<{7}|\|{7}|={7}|>{7})(?=[ \r\n]|\Z)[^\n]*"}
 _LAST = {
-    "SIGN": r"->|=>|::|[!-/:-@\[-`{-~]",
+    "SIGN": r"->|=>|::|&&|\|\||[!-/:-@\[-`{-~]",
     "STRAY": r"\S",
 }
 _MISSPELT = {

@@ -11,7 +11,18 @@ from typing import Any, ClassVar, TypeVar
 
 from robocomp_dsl.diagnostics import Code, Fix, Note, did_you_mean, nearest
 from robocomp_dsl.source import Span
-from robocomp_dsl.syntax.ast.base import Duration, Import, Name, Node, Number, Text, Unit
+from robocomp_dsl.syntax.ast.base import (
+    Bool,
+    Duration,
+    Import,
+    Literal,
+    Name,
+    Node,
+    Number,
+    QualifiedName,
+    Text,
+    Unit,
+)
 from robocomp_dsl.syntax.codes import file as file_codes
 from robocomp_dsl.syntax.codes import legacy as legacy_codes
 from robocomp_dsl.syntax.codes import syntax as syntax_codes
@@ -70,6 +81,10 @@ class Builder:
     def import_file(self, span: Span, path: Text) -> Import:
         """`import "path";`."""
         return Import(span, path)
+
+    def qualified(self, span: Span, first: Name, second: Name | None) -> QualifiedName:
+        """`Name` or `Module::Name`."""
+        return QualifiedName(span, second, first) if second else QualifiedName(span, first)
 
     def lone_semicolon(self, span: Span) -> None:
         """A `;` without a statement."""
@@ -180,6 +195,13 @@ def parse_number(text: str) -> int | float:
         return int(text)
     except ValueError:
         return float(text)
+
+
+def literal(value: Name | Text | Number) -> Literal:
+    """A value; the words `true` and `false`, in any case, are a `Bool`."""
+    if isinstance(value, Name) and value.text.lower() in ("true", "false"):
+        return Bool(value.span, value.text.lower() == "true")
+    return value
 
 
 def of_kind(kind: type[NodeT], children: Iterable[Any]) -> tuple[NodeT, ...]:

@@ -10,7 +10,7 @@ from typing import Any, ClassVar, cast
 from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax.ast import cdsl as ast
-from robocomp_dsl.syntax.ast.base import Import, Name, QualifiedName
+from robocomp_dsl.syntax.ast.base import Import, Name, Node, QualifiedName
 from robocomp_dsl.syntax.codes import legacy as legacy_codes
 from robocomp_dsl.syntax.codes import syntax as syntax_codes
 from robocomp_dsl.syntax.languages.builder import of_kind
@@ -24,6 +24,12 @@ def parse(source: Source, report: Report) -> ast.File:
     """The tree of a CDSL file."""
     file: ast.File = parse_source("cdsl", CdslBuilder, source, report)
     return file
+
+
+class PortMiddlewares(Node):
+    """The mark `(zenoh, local)` of a port."""
+
+    names: tuple[Name, ...]
 
 
 class CdslBuilder(SettingsBuilder):
@@ -112,7 +118,7 @@ class CdslBuilder(SettingsBuilder):
                 fix=self.replace_fix("delete it", optional.span),
             )
             optional = None
-        return ast.Port(port.span, role, port.interface, port.alias, port.middleware, optional)
+        return ast.Port(port.span, role, port.interface, port.alias, port.middlewares, optional)
 
     def no_ports(self, span: Span, role: Name) -> tuple[ast.Port, ...]:
         """`requires;`."""
@@ -127,20 +133,32 @@ class CdslBuilder(SettingsBuilder):
     def port(self, span: Span, interface: QualifiedName, *options: Any) -> ast.Port:
         """`Laser(ice) as front`, without its role."""
         alias: Name | None = None
-        middleware: Name | None = None
+        mark: PortMiddlewares | None = None
         optional: Name | None = None
-        for kind, name in options:
+        for option in options:
+            if isinstance(option, PortMiddlewares):
+                mark = self.first_of(mark, option, "the middleware")
+                continue
+            kind, name = option
             if kind == "as":
                 alias = self.first_of(alias, name, "the instance name")
-            elif kind == "optional":
-                optional = self.first_of(optional, name, "`optional`")
             else:
-                middleware = self.first_of(middleware, name, "the middleware")
-        return ast.Port(span, "requires", interface, alias, middleware, optional)
+                optional = self.first_of(optional, name, "`optional`")
+        return ast.Port(span, "requires", interface, alias, mark.names if mark else (), optional)
 
-    def second_middleware(self, _span: Span, name: Name) -> tuple[str, Name]:
-        """`(ice)`."""
-        return "(", name
+    def middlewares(self, span: Span, *names: Name) -> PortMiddlewares:
+        """`(zenoh, local)`; a repeated name is reported and left out."""
+        unique: dict[str, Name] = {}
+        for name in self.without_trailing_comma(names):
+            first = unique.setdefault(name.text.lower(), name)
+            if first is not name:
+                self.report(
+                    syntax_codes.DUPLICATE,
+                    name.span,
+                    f"`{name.text}` is written twice",
+                    notes=(Note(first.span, "first written here"),),
+                )
+        return PortMiddlewares(span, tuple(unique.values()))
 
     def alias(self, _span: Span, name: Name) -> tuple[str, Name]:
         """`as front`."""
@@ -149,7 +167,3 @@ class CdslBuilder(SettingsBuilder):
     def optional(self, _span: Span, word: Name) -> tuple[str, Name]:
         """`optional`."""
         return "optional", word
-
-    def qualified(self, span: Span, first: Name, second: Name | None) -> QualifiedName:
-        """`Name` or `Module::Name`."""
-        return QualifiedName(span, second, first) if second else QualifiedName(span, first)

@@ -13,6 +13,7 @@ from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Duration, Import, Name, Text
 from robocomp_dsl.syntax.codes import syntax as codes
 from robocomp_dsl.syntax.languages.builder import BlockSetting, of_kind
+from robocomp_dsl.syntax.languages.ddsl_connections import ConnectionsBuilder
 from robocomp_dsl.syntax.languages.ddsl_instances import InstancesBuilder
 from robocomp_dsl.syntax.languages.parse_source import parse_source
 
@@ -23,18 +24,21 @@ def parse(source: Source, report: Report) -> ast.File:
     return file
 
 
-class DdslBuilder(InstancesBuilder):
+class DdslBuilder(InstancesBuilder, ConnectionsBuilder):
     """Builds the nodes of `ast.ddsl`."""
 
     ITEM_NAMES: ClassVar = {
         "file_item": "`import` or `Deployment`",
-        "deployment_item": "`component`, `program`, `connect`, `host`, `group`, `middleware`, "
-        "`clock`",
+        "deployment_item": "`component`, `program`, `connect`, `extern`, `arbitrate`, `host`, "
+        "`group`, `middleware`, `clock`",
         "host_item": "`address`, `user`, `labels`",
         "instance_item": "a setting of the component (`config`, `set`, `after`, `device`, …)",
         "device_item": "`set`, a parameter of the device",
-        "qos_item": "`reliable`, `best_effort`, `priority`, `depth`, `deadline`",
-        "group_item": "`component`, `program`, `connect`, `export`, `group`, `after`",
+        "connection_item": "`reliable`, `best_effort`, `priority`, `keep`, `depth`, `latched`, "
+        "`deadline`, `liveliness`, `thread priority`, `monitor`",
+        "monitor_item": "an argument of the monitor, such as `max = 3;`",
+        "arbitration_item": "`from`",
+        "group_item": "`component`, `program`, `connect`, `arbitrate`, `export`, `group`, `after`",
     }
 
     def start(self, span: Span, *items: Any) -> ast.File:
@@ -61,6 +65,8 @@ class DdslBuilder(InstancesBuilder):
             instances=of_kind(ast.Instance, items),
             connections=of_kind(ast.Connection, items),
             groups=of_kind(ast.Group, items),
+            externals=of_kind(ast.External, items),
+            arbitrations=of_kind(ast.Arbitration, items),
             doc=self.doc(span),
             **self.settings(items),
         )
@@ -109,6 +115,7 @@ class DdslBuilder(InstancesBuilder):
             connections=of_kind(ast.Connection, items),
             exports=of_kind(ast.Export, items),
             groups=of_kind(ast.Group, items),
+            arbitrations=of_kind(ast.Arbitration, items),
             doc=self.doc(span),
             **self.settings(items),
         )

@@ -1,4 +1,4 @@
-"""DDSL: builds component instances and connections.
+"""DDSL: builds component instances.
 
 In: the rules that the parser recognised. Out: nodes of `ast.ddsl`.
 """
@@ -9,9 +9,9 @@ from typing import Any
 
 from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast import ddsl as ast
-from robocomp_dsl.syntax.ast.base import Bool, Duration, Literal, Name, Number, Text, Unit
+from robocomp_dsl.syntax.ast.base import Duration, Name, Number, Text, Unit
 from robocomp_dsl.syntax.codes import syntax as codes
-from robocomp_dsl.syntax.languages.builder import BlockSetting, of_kind
+from robocomp_dsl.syntax.languages.builder import BlockSetting, literal, of_kind
 from robocomp_dsl.syntax.languages.ddsl_devices import DevicesBuilder
 
 POLICIES = ("on-failure", "always", "never")
@@ -19,7 +19,7 @@ MEMORY_UNITS = ("kB", "MB", "GB", "KiB", "MiB", "GiB")
 
 
 class InstancesBuilder(DevicesBuilder):
-    """The part of the DDSL builder for instances and connections."""
+    """The part of the DDSL builder for instances."""
 
     def instance(
         self, span: Span, name: Name, kind: Name | None, host: Name | None, body: Any
@@ -48,6 +48,7 @@ class InstancesBuilder(DevicesBuilder):
             attachments=of_kind(ast.Attach, items),
             actions=of_kind(ast.Action, items),
             environment=of_kind(ast.Environment, items),
+            own_ports=of_kind(ast.OwnPort, items),
             doc=self.doc(span),
             is_program=is_program,
             **self.settings(items),
@@ -83,7 +84,7 @@ class InstancesBuilder(DevicesBuilder):
 
     def setting(self, span: Span, key: Name, value: Any) -> ast.Setting:
         """`set key = value;`."""
-        return ast.Setting(span, key, _literal(value))
+        return ast.Setting(span, key, literal(value))
 
     def key(self, span: Span, *parts: Name | Unit) -> Name:
         """`motors[2].min`."""
@@ -109,6 +110,10 @@ class InstancesBuilder(DevicesBuilder):
     def port(self, span: Span, value: Number) -> BlockSetting:
         """`port 7451;`."""
         return BlockSetting(span, "port", value)
+
+    def own_port(self, span: Span, port: Name, over: Name, address: Text | None) -> ast.OwnPort:
+        """`port Laser over ice at "tcp -p 10001";`."""
+        return ast.OwnPort(span, port, over, address)
 
     def after(self, span: Span, *names: Any) -> BlockSetting:
         """`after a, b;`."""
@@ -153,39 +158,3 @@ class InstancesBuilder(DevicesBuilder):
     def watchdog(self, span: Span, limit: Duration) -> BlockSetting:
         """`watchdog 2 s;`."""
         return BlockSetting(span, "watchdog", limit)
-
-    def connection(
-        self, span: Span, source: ast.PortRef, target: ast.PortRef, qos: ast.Qos | None
-    ) -> ast.Connection:
-        """`connect a.X -> b.X { … };`."""
-        return ast.Connection(span, source, target, qos)
-
-    def port_ref(self, span: Span, instance: Name, port: Name) -> ast.PortRef:
-        """`a.X`."""
-        return ast.PortRef(span, instance, port)
-
-    def qos_body(self, span: Span, *items: Any) -> ast.Qos:
-        """`reliable; depth 1;`."""
-        return ast.Qos(span, **self.settings(items))
-
-    def reliability(self, span: Span, word: Name) -> BlockSetting:
-        """`reliable;` or `best_effort;`."""
-        return BlockSetting(span, "reliability", word)
-
-    def priority(self, span: Span, word: Name) -> BlockSetting:
-        """`priority high;`."""
-        return BlockSetting(span, "priority", word)
-
-    def depth(self, span: Span, value: Number) -> BlockSetting:
-        """`depth 1;`."""
-        return BlockSetting(span, "depth", value)
-
-    def deadline(self, span: Span, value: Duration) -> BlockSetting:
-        """`deadline 40 ms;`."""
-        return BlockSetting(span, "deadline", value)
-
-
-def _literal(value: Name | Text | Number) -> Literal:
-    if isinstance(value, Name) and value.text.lower() in ("true", "false"):
-        return Bool(value.span, value.text.lower() == "true")
-    return value

@@ -18,7 +18,7 @@ from robocomp_dsl.runtime.component.user_errors import message_of
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 from robocomp_dsl.runtime.connection.message_queue import MessageQueue
-from robocomp_dsl.runtime.errors import DeclaredError, RemoteError, Timeout
+from robocomp_dsl.runtime.errors import DeclaredError, RejectedByReceiver, RemoteError, Timeout
 from robocomp_dsl.runtime.middleware.transport import (
     BoundOperation,
     ServerLost,
@@ -119,6 +119,8 @@ class InprocServiceClient:
                 raise
             except BaseException as error:
                 served.report(error)
+                if isinstance(error, RejectedByReceiver):
+                    raise
                 if declared := _as_declared(error, served.operation, operation.throws):
                     raise declared  # noqa: B904 - nearly always the same exception
                 what = f"{type(error).__name__}: {message_of(error)}"

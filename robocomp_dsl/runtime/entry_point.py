@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from robocomp_dsl import __version__
 from robocomp_dsl.runtime.component import logs
@@ -36,11 +36,14 @@ from robocomp_dsl.runtime.component.settings import (
 )
 from robocomp_dsl.runtime.component.spec import ComponentSpec
 from robocomp_dsl.runtime.component.user_errors import TRACEBACK_VARIABLE
-from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.runtime.errors import MiddlewareError, MonitorError
 from robocomp_dsl.runtime.middleware.registry import UnknownMiddleware
 from robocomp_dsl.runtime.parameters import ConfigError, Parameters
 from robocomp_dsl.runtime.parameters.shown import describe_parameters
 from robocomp_dsl.runtime.time.clock_settings import ClockSettings, parse_clock
+
+if TYPE_CHECKING:
+    from robocomp_dsl.runtime.connection.monitor_settings import ConnectionMonitors
 
 CONFIG = Path("etc/config.yaml")
 MAX_WATCHDOG_S = 86_400.0
@@ -110,7 +113,7 @@ def _run(component: type[Component], params: Parameters, settings: RunSettings) 
 
     try:
         runner = Runner(component, params, settings)
-    except (MiddlewareError, UnknownMiddleware) as error:
+    except (MiddlewareError, MonitorError, UnknownMiddleware) as error:
         log.error("%s", error)  # noqa: TRY400 - the message is all there is to know
         return 1
     _on_signals(runner.stop)
@@ -202,6 +205,7 @@ def _parser(spec: ComponentSpec) -> argparse.ArgumentParser:
         default=[],
         help="setting of a middleware",
     )
+    add("--monitors", metavar="JSON", default="", help="monitors of connections, or @FILE")
     add("--remap", metavar="PORT=NAME", action="append", default=[], help="rename a port")
     add(
         "--qos",
@@ -265,8 +269,10 @@ def _settings(options: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
     remaps, addresses = parse_remaps(options.remap), parse_addresses(options.address)
     middleware, port_middlewares = parse_middlewares(options.middleware)
     ports = list(_ports(spec))
-    own = (port for _, port in addresses)
-    for name in (*connections, *external, *qos, *remaps, *port_middlewares, *own):
+    monitors = _monitors(options.monitors)
+    own = (*(port for _, port in addresses), *(connection.port for connection in monitors))
+    qualified = (port.partition("/")[0] for port in qos)
+    for name in (*connections, *external, *qualified, *remaps, *port_middlewares, *own):
         if name not in ports:
             known = f"its ports: {', '.join(ports)}" if ports else "it has no ports"
             raise InvalidSetting(f"{spec.name} has no port `{name}`; {known}")
@@ -296,7 +302,16 @@ def _settings(options: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
         listen_port=options.listen_port,
         clock=options.clock,
         watchdog=options.watchdog,
+        monitors=monitors,
     )
+
+
+def _monitors(text: str) -> tuple[ConnectionMonitors, ...]:
+    if not text:
+        return ()
+    from robocomp_dsl.runtime.connection.parse_monitors import parse_monitors  # noqa: PLC0415
+
+    return parse_monitors(text)
 
 
 def _check_port_names(spec: ComponentSpec, remaps: Mapping[str, str]) -> None:

@@ -1,0 +1,1 @@
+"""Monitors and arbitration: what checker and components share. Standard library only."""

@@ -1,0 +1,153 @@
+"""DDSL: builds connections with their quality of service and monitors, and external programs.
+
+In: the rules that the parser recognised. Out: nodes of `ast.ddsl`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from robocomp_dsl.source import Span
+from robocomp_dsl.syntax.ast import ddsl as ast
+from robocomp_dsl.syntax.ast.base import Duration, Name, Number, QualifiedName, Text
+from robocomp_dsl.syntax.languages.builder import BlockSetting, Builder, literal, of_kind
+
+POSITIONS = ("sender", "receiver")
+"""Where a monitor runs."""
+
+FAILURE_POLICIES = ("bypass", "close")
+"""What a connection does when its monitor fails."""
+
+_KEEPS = ("depth", "keep_all")
+
+
+class ConnectionsBuilder(Builder):
+    """The part of the DDSL builder for connections."""
+
+    def connection(
+        self,
+        span: Span,
+        source: ast.PortRef,
+        target: ast.PortRef,
+        over: Name | None,
+        body: tuple[Any, ...] | None,
+    ) -> ast.Connection:
+        """`connect a.X -> b.X over local { … };`."""
+        if body is None:
+            return ast.Connection(span, source, target, over)
+        items, block = body
+        qos = ast.Qos(block, **self.settings(items))
+        return ast.Connection(span, source, target, over, qos, of_kind(ast.Monitor, items))
+
+    def over(self, _span: Span, name: Name) -> Name:
+        """`over local`."""
+        return name
+
+    def port_ref(self, span: Span, instance: Name, port: Name) -> ast.PortRef:
+        """`a.X`."""
+        return ast.PortRef(span, instance, port)
+
+    def connection_body(self, span: Span, *items: Any) -> tuple[list[Any], Span]:
+        """`reliable; depth 1;`; a second length of the queue is reported and left out."""
+        length: BlockSetting | None = None
+        valid: list[Any] = []
+        for item in items:
+            if isinstance(item, BlockSetting) and item.field in _KEEPS:
+                first = length
+                length = self.first_of(length, item, "the length of the queue")
+                if first is not None:
+                    continue
+            valid.append(item)
+        return valid, span
+
+    def reliability(self, span: Span, word: Name) -> BlockSetting:
+        """`reliable;` or `best_effort;`."""
+        return BlockSetting(span, "reliability", word)
+
+    def priority(self, span: Span, word: Name) -> BlockSetting:
+        """`priority high;`."""
+        return BlockSetting(span, "priority", word)
+
+    def depth(self, span: Span, value: Number) -> BlockSetting:
+        """`keep last 1;`, or `depth 1;`."""
+        return BlockSetting(span, "depth", value)
+
+    def keep_all(self, span: Span, word: Name) -> BlockSetting:
+        """`keep all;`."""
+        return BlockSetting(span, "keep_all", word)
+
+    def latched(self, span: Span, word: Name) -> BlockSetting:
+        """`latched;`."""
+        return BlockSetting(span, "latched", word)
+
+    def deadline(self, span: Span, value: Duration) -> BlockSetting:
+        """`deadline 40 ms;`."""
+        return BlockSetting(span, "deadline", value)
+
+    def liveliness(self, span: Span, value: Duration) -> BlockSetting:
+        """`liveliness 500 ms;`."""
+        return BlockSetting(span, "liveliness", value)
+
+    def thread_priority(self, span: Span, value: Number) -> BlockSetting:
+        """`thread priority 20;`."""
+        return BlockSetting(span, "thread_priority", value)
+
+    def monitor(
+        self,
+        span: Span,
+        file: Text,
+        class_name: Name,
+        arguments: tuple[ast.Argument, ...] | None,
+        at: Name | None,
+        on_failure: Name | None,
+    ) -> ast.Monitor:
+        """`monitor "limits.py" Limit { max = 3; } at receiver on failure close;`."""
+        if at is not None:
+            self.check_choice(at, POSITIONS, "position of a monitor")
+        if on_failure is not None:
+            self.check_choice(on_failure, FAILURE_POLICIES, "policy for failures")
+        return ast.Monitor(span, file, class_name, arguments or (), at, on_failure)
+
+    def monitor_body(self, _span: Span, *items: Any) -> tuple[ast.Argument, ...]:
+        """The arguments between the braces."""
+        return of_kind(ast.Argument, items)
+
+    def argument(self, span: Span, name: Name, value: Name | Text | Number) -> ast.Argument:
+        """`max = 3;`."""
+        return ast.Argument(span, name, literal(value))
+
+    def at(self, _span: Span, position: Name) -> Name:
+        """`at receiver`."""
+        return position
+
+    def on_failure(self, _span: Span, policy: Name) -> Name:
+        """`on failure close`."""
+        return policy
+
+    def arbitration(self, span: Span, target: ast.PortRef, *items: Any) -> ast.Arbitration:
+        """`arbitrate b.Y { … };`."""
+        return ast.Arbitration(span, target, of_kind(ast.Candidate, items))
+
+    def candidate(self, span: Span, source: ast.PortRef, condition: ast.Condition) -> ast.Candidate:
+        """`from a.X when seen;`."""
+        return ast.Candidate(span, source, condition)
+
+    def condition(self, span: Span, *events: Name) -> ast.Condition:
+        """`seen && !stop`."""
+        return ast.Condition(span, events)
+
+    def extern(
+        self,
+        span: Span,
+        name: Name,
+        over: Name,
+        address: Text | None,
+        role: Name,
+        interface: QualifiedName,
+    ) -> ast.External:
+        """`extern laser over ice at "laser:tcp -p 10001" implements Laser;`."""
+        return ast.External(span, name, over, address, role, interface, self.doc(span))
+
+    def extern_role(self, _span: Span, word: Name) -> Name:
+        """`implements`."""
+        return word
