@@ -29,6 +29,7 @@ from robocomp_dsl.runtime.component.lifecycle import (
 )
 from robocomp_dsl.runtime.component.sd_notify import SystemdNotifier
 from robocomp_dsl.runtime.component.settings import RunSettings
+from robocomp_dsl.runtime.component.shown_parameters import ShownParameters
 from robocomp_dsl.runtime.component.spec import CalledPort, ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.supervisor_pipe import SupervisorPipe
@@ -92,6 +93,7 @@ class Runner:
             unique_name=True,
             addresses=settings.addresses,
             transport_settings=settings.transport_settings,
+            parameters=ShownParameters(params, self.callback_group),
         )
         self.ports = open_ports(
             settings.middleware or self.spec.middleware,

@@ -1,11 +1,14 @@
 """A ROS 2 node on rclpy, which knows nothing of this project; see `peer_process`."""
 
+import json
 import sys
 import threading
 
 import rclpy
 from peer_program import run
+from rcl_interfaces.srv import GetParameters, ListParameters, SetParameters
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
@@ -40,12 +43,38 @@ class Peer:
     def call(self, name):
         client = self.node.create_client(SetBool, name)
         assert client.wait_for_service(TIMEOUT_S)
+        reply = self.reply(client, SetBool.Request(data=True))
+        return [reply.success, reply.message]
+
+    def reply(self, client, request):
         done = threading.Event()
         while not done.is_set():  # the server may not have discovered the client yet
-            future = client.call_async(SetBool.Request(data=True))
+            future = client.call_async(request)
             future.add_done_callback(lambda _: done.set())
             done.wait(RETRY_S)
-        return [future.result().success, future.result().message]
+        return future.result()
+
+    def ask_parameters(self, node, service, type_, request):
+        client = self.node.create_client(type_, f"{node}/{service}")
+        assert client.wait_for_service(TIMEOUT_S)
+        return self.reply(client, request)
+
+    def parameters(self, node):
+        reply = self.ask_parameters(
+            node, "list_parameters", ListParameters, ListParameters.Request()
+        )
+        return list(reply.result.names)
+
+    def parameter(self, node, name):
+        request = GetParameters.Request(names=[name])
+        reply = self.ask_parameters(node, "get_parameters", GetParameters, request)
+        return parameter_value_to_python(reply.values[0])
+
+    def set_parameter(self, node, name, text):
+        parameter = Parameter(name, value=json.loads(text)).to_parameter_msg()
+        request = SetParameters.Request(parameters=[parameter])
+        reply = self.ask_parameters(node, "set_parameters", SetParameters, request)
+        return [reply.results[0].successful, reply.results[0].reason]
 
     def received(self, topic):
         return self.messages[topic]

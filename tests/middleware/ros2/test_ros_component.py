@@ -41,6 +41,14 @@ module RobotLamp
   };
 };
 """,
+    "lamp.pdsl": """
+ComponentParams lamp
+{
+    /** Of the lamp. */
+    brightness float 0.5 0:1 live;
+    pin int 7;
+};
+""",
     "lamp.cdsl": """
 import "Lamp.idsl";
 Component lamp
@@ -53,6 +61,7 @@ Component lamp
     subscribesTo Ear;
   };
   language Python;
+  parameters "lamp.pdsl";
 };
 """,
 }
@@ -69,7 +78,11 @@ class SpecificWorker(GenericWorker):
         return SetBool_Response(reply.success, "lamp asked " + reply.message)
 
     def Ear_hear(self, text: String) -> None:
-        self.voice_proxy.say(String("lamp heard " + text.data))
+        answer = f"lamp heard {text.data} at {self.params.brightness}"
+        self.voice_proxy.say(String(answer))
+
+    def did_set_brightness(self, old: float) -> None:
+        self.log.info("brightness changed")
 '''
 
 
@@ -131,4 +144,28 @@ def test_generated_component_serves_calls_and_exchanges_topics_with_a_ros_node(
             peer.command("received", "/lamp/voice"),
         )[1]
     )
-    assert set(peer.command("received", "/lamp/voice")) == {"lamp heard hello"}
+    assert set(peer.command("received", "/lamp/voice")) == {"lamp heard hello at 0.5"}
+
+
+@pytest.mark.usefixtures("lamp")
+@pytest.mark.parametrize("service_network", ["ros2"], indirect=True)
+def test_generated_component_has_its_parameters_as_those_of_its_node(peer: PeerProcess) -> None:
+    names = wait_until(lambda: peer.command("parameters", "/lamp"))
+    assert {"brightness", "pin"} <= set(names)
+    assert peer.command("parameter", "/lamp", "brightness") == 0.5
+    assert peer.command("set_parameter", "/lamp", "brightness", "1") == [True, ""]
+    assert wait_until(lambda: peer.command("parameter", "/lamp", "brightness")) == 1.0
+    accepted, reason = peer.command("set_parameter", "/lamp", "brightness", "7")
+    assert not accepted
+    assert "brightness" in reason
+    accepted, reason = peer.command("set_parameter", "/lamp", "pin", "8")
+    assert not accepted
+    assert "read-only" in reason
+    peer.command("subscribe", "/lamp/voice")
+    wait_until(
+        lambda: (
+            peer.command("publish", "/peer/out", "hello"),
+            peer.command("received", "/lamp/voice"),
+        )[1]
+    )
+    assert set(peer.command("received", "/lamp/voice")) == {"lamp heard hello at 1.0"}

@@ -41,7 +41,6 @@ class RclpyNode:
                 context=self._context,
                 use_global_arguments=False,
                 enable_rosout=False,
-                start_parameter_services=False,
             )
         except Exception as error:
             raise MiddlewareError(

@@ -9,6 +9,7 @@ from robocomp_dsl.runtime.middleware.ros2.client import Ros2Client
 from robocomp_dsl.runtime.middleware.ros2.description import MIDDLEWARE
 from robocomp_dsl.runtime.middleware.ros2.graph_check import GraphCheck
 from robocomp_dsl.runtime.middleware.ros2.node import RclpyNode
+from robocomp_dsl.runtime.middleware.ros2.parameters import RosParameters
 from robocomp_dsl.runtime.middleware.ros2.server import Ros2Server
 from robocomp_dsl.runtime.middleware.ros2.topics import Ros2Subscription, Ros2Writer
 from robocomp_dsl.runtime.middleware.ros_common.interface_types import require_ros_types
@@ -31,6 +32,8 @@ class Ros2Transport:
         self._context = context
         self._ros = RclpyNode(context.component, context.settings)
         self._graph = GraphCheck(self._ros)
+        if context.parameters:
+            self._parameters = RosParameters(self._ros.node, context.parameters)
 
     def serve(self, port: IncomingPort) -> Ros2Server:
         """See `transport.Transport`."""
