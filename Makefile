@@ -54,8 +54,10 @@ test-tools: $(READY)
 test-editors: test-tools
 	$(BIN)/python -m pytest -q -m editors tests/editors
 
-# Tests with programs of other projects as peers: ROS 2, DDS.
+# Programs of other projects call components, and are called by them: ZeroC Ice, ROS 2, DDS.
 test-peers: $(READY)
+	tests/middleware/install-peers.sh $(CURDIR)/$(BIN)/python
+	$(BIN)/python -m pytest -q -n $(WORKERS) -m peers tests/middleware --ignore tests/middleware/ros2
 	tests/middleware/ros2/install-peers.sh $(PYTHON) build/peers-venv
 	build/peers-venv/bin/python -m pytest -q -m peers tests/middleware/ros2
 

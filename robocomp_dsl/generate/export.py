@@ -58,33 +58,6 @@ def modules_by_file(modules: Iterable[Module]) -> dict[Path, list[Module]]:
     return by_file
 
 
-class NameTable:
-    """Unique names of one scope in a format; names with the same `fold` are equal.
-
-    `fit` makes a name valid in the format; a duplicate name gets a number, from 2 on.
-    """
-
-    def __init__(
-        self,
-        fit: Callable[[str], str],
-        fold: Callable[[str], str] = str.lower,
-        taken: Iterable[str] = (),
-    ) -> None:
-        self._fit = fit
-        self._fold = fold
-        self._taken = {fold(name) for name in taken}
-
-    def claim(self, name: str) -> tuple[str, bool]:
-        """A free name based on `name`, and whether a number was added."""
-        fitting = self._fit(name)
-        free, number = fitting, 1
-        while self._fold(free) in self._taken:
-            number += 1
-            free = self._fit(f"{fitting}{number}")
-        self._taken.add(self._fold(free))
-        return free, number > 1
-
-
 def report_renamed(report: Report, span: Span, old: str, new: str, why: str) -> None:
     """Report that `old` is named `new` in the exported files."""
     report.add(codes.RENAMED_IN_EXPORT, span, f"`{old}` is exported as `{new}`: {why}")

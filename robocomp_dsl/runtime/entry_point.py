@@ -66,6 +66,12 @@ def main(component: type[Component], argv: Sequence[str] | None = None) -> int:
         config, save_beside = _configuration(options, settings, component.SPEC.name)
         params = component.SPEC.parameters.load(config, settings.overrides, save_beside=save_beside)
         settings = replace(settings, config=config)
+        if config:
+            from robocomp_dsl.runtime.middleware.configured import (  # noqa: PLC0415 - for files
+                with_configured_connections,
+            )
+
+            settings = with_configured_connections(settings, component.SPEC, config)
     except ConfigError as error:
         print(error, file=sys.stderr)  # noqa: T201 - located findings, not a record
         return 1

@@ -1,16 +1,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from tests.middleware.network import DEADLINE, Network
-
-MIDDLEWARES = ("inproc", "local", "zenoh")
+from tests.middleware.network import DEADLINE
 
 
 def set_discovery_timeout(seconds: float, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -29,10 +26,3 @@ def long_discovery_timeout(monkeypatch: pytest.MonkeyPatch) -> None:
 def short_discovery_timeout(long_discovery_timeout: None, monkeypatch: pytest.MonkeyPatch) -> None:
     """Calls wait shortly: the test has no server, or knows that all are discovered."""
     set_discovery_timeout(0.1, monkeypatch)
-
-
-@pytest.fixture(params=MIDDLEWARES)
-def network(request: pytest.FixtureRequest) -> Iterator[Network]:
-    opened = Network(request.param)
-    yield opened
-    opened.close()

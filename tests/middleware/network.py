@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 import uuid
 from collections.abc import Callable, Mapping
 from typing import Any
+
+import pytest
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface
@@ -12,28 +15,29 @@ from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.connection.component_ports import ComponentPorts, open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
 from robocomp_dsl.runtime.connection.ports import ComponentContext
+from robocomp_dsl.runtime.middleware.registry import capabilities_of
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 
 DEADLINE = 60.0
-NO_QOS = Qos()
 
 
 class Node:
-    """One component."""
+    """One component, all of whose ports are on the middleware of its network."""
 
     def __init__(self, network: Network, name: str, threads: int = 1) -> None:
         self.name = name
-        self.middlewares = (network.kind,)
+        self.middleware = network.middleware
         self.execution = CallbackGroup(threads)
         self.statistics = Statistics()
-        host = ComponentContext(name, network.domain, self.execution, self.statistics)
-        self.ports: ComponentPorts = open_ports(network.kind, host)
+        self.failures: list[str] = []
+        context = ComponentContext(
+            name, network.domain, self.execution, self.statistics, fail=self.failures.append
+        )
+        self.ports: ComponentPorts = open_ports(network.middleware, context)
 
-    def at(
-        self, interface: Interface, port: str, peers: tuple[str, ...] = (), qos: Qos = NO_QOS
-    ) -> Endpoint:
-        """A port on the middleware under test."""
-        return Endpoint(interface, self.name, port, peers, qos, self.middlewares)
+    def at(self, interface: Interface, port: str, *peers: str, qos: Qos | None = None) -> Endpoint:
+        """A port of this component."""
+        return Endpoint(interface, self.name, port, peers, qos or Qos(), (self.middleware,))
 
     def serve(
         self,
@@ -45,34 +49,46 @@ class Node:
         self.ports.serve(self.at(interface, port), every, self.execution)
 
     def probe(self, *peers: str) -> ProbeProxy:
-        return ProbeProxy(self.ports.proxy(self.at(PROBE, "Probe", peers)))
+        return ProbeProxy(self.ports.proxy(self.at(PROBE, "Probe", *peers)))
 
-    def news(self) -> NewsProxy:
-        return NewsProxy(self.ports.advertise(self.at(NEWS, "News")))
+    def news(self, port: str = "News", qos: Qos | None = None) -> NewsProxy:
+        return NewsProxy(self.ports.advertise(self.at(NEWS, port, qos=qos)))
 
     def subscribe(
-        self, handler: Callable[[str, int], None], *peers: str, qos: Qos | None = None
+        self,
+        handler: Callable[[str, int], None],
+        *peers: str,
+        qos: Qos | None = None,
+        port: str = "News",
+        group: CallbackGroup | None = None,
     ) -> None:
-        at = self.at(NEWS, "News", peers, qos or Qos())
-        self.ports.subscribe(at, {"announced": handler}, self.execution)
+        at = self.at(NEWS, port, *peers, qos=qos)
+        self.ports.subscribe(at, {"announced": handler}, group or self.execution)
 
     def count(self, operation: str, port: str = "Probe") -> Any:
         return self.statistics.of(port, operation)
 
 
 class Network:
-    """A domain of its own."""
+    """A domain of its own, on one middleware."""
 
-    def __init__(self, kind: str) -> None:
-        self.kind = kind
-        self.domain = f"test-{uuid.uuid4().hex[:12]}"
+    def __init__(self, middleware: str, domain: str = "") -> None:
+        self.middleware = middleware
+        self.capabilities = capabilities_of(middleware)
+        self.domain = domain or f"test-{uuid.uuid4().hex[:12]}"
         self.nodes: list[Node] = []
 
     def node(self, name: str, threads: int = 1) -> Node:
+        """A new component; skips the test if the middleware does not allow the name."""
+        names = self.capabilities.valid_names
+        if names and not re.fullmatch(names, name):
+            pytest.skip(f"{self.middleware} allows no component `{name}` (valid_names)")
         node = Node(self, name, threads)
         self.nodes.append(node)
         return node
 
     def close(self) -> None:
-        for node in self.nodes:
+        """End all components."""
+        nodes, self.nodes = self.nodes, []
+        for node in nodes:
             node.ports.close()

@@ -237,7 +237,7 @@ WRONG_SUFFIX = Code(
     "wrong file suffix",
     """\
 The suffix names the kind of a file: `.cdsl` a component, `.idsl` interfaces, `.pdsl` parameters,
-`.ddsl` a deployment, `.yaml`, `.yml` or `.toml` a configuration.
+`.ddsl` a deployment, `.yaml`, `.yml` or `.toml` a configuration. RoboComp's `etc/config` has none.
 
 Wrong:
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 from robocomp_dsl.check.codes import deployment as codes
 from robocomp_dsl.check.ddsl.components import ImportedComponents
+from robocomp_dsl.check.ddsl.configured_peers import is_configured
 from robocomp_dsl.check.ddsl.connections import ExplicitConnections, same_interface
 from robocomp_dsl.check.ddsl.prefixes import nearest, on_branch
 from robocomp_dsl.check.ddsl.scopes import NAME_SEPARATOR
@@ -61,7 +62,8 @@ def implicit_connections(
             publishers_seen = _visible_ends(instance, others, exports)
             for publisher, topic in publishers_seen:
                 yield Connection(publisher, topic, instance, port, instance.span, implied=True)
-            if not publishers_seen and complete and not port.optional:
+            is_missing = not publishers_seen and complete and not port.optional
+            if is_missing and not is_configured(instance, port):
                 _report_no_publisher(instance, port, _other_branches(instance, others), report)
 
 
@@ -88,7 +90,7 @@ def _report_requirement(
         _report_several(instance, port, candidates, report)
     elif out_of_reach:
         _report_other_branches(instance, port, out_of_reach, report)
-    elif whole:
+    elif whole and not is_configured(instance, port):
         _report_no_server(instance, port, imported, report)
 
 

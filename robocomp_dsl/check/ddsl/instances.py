@@ -37,7 +37,8 @@ from robocomp_dsl.syntax.ast.base import Name, Number, Text
 HERE = Host("", "127.0.0.1")
 _LOCAL = Host(THIS_MACHINE, THIS_MACHINE)
 DEFAULT_EXECUTABLE = "python3 main.py"
-_CONFIGURATIONS = (".yaml", ".yml", ".toml")
+_CONFIGURATIONS = (".yaml", ".yml", ".toml", "")
+"""RoboComp's own configurations are named `config`, without a suffix."""
 _LAST_PORT = 65535
 
 

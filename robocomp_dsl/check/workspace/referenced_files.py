@@ -23,13 +23,17 @@ from robocomp_dsl.syntax.parse import parse_pdsl
 def find_referenced_file(
     written: Text, suffixes: tuple[str, ...], beside: Path, workspace: Workspace, report: Report
 ) -> Path | None:
-    """The file at a path relative to the file `beside`; its suffix must be one of `suffixes`."""
+    """The file at a path relative to the file `beside`; its suffix must be one of `suffixes`.
+
+    An empty suffix is that of a name without a dot.
+    """
     path = beside.parent / written.value
     if path.suffix.lower() not in suffixes:
         report.add(
             codes.WRONG_SUFFIX,
             written.span,
-            f"`{written.value}` does not end in {' or '.join(f'`{end}`' for end in suffixes)}",
+            f"`{written.value}` does not end in"
+            f" {' or '.join(f'`{end}`' for end in suffixes if end)}",
         )
         return None
     if workspace.sources.exists(path):

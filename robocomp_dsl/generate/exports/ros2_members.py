@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import literals
-from robocomp_dsl.generate.export import NameTable, report_renamed
+from robocomp_dsl.generate.export import report_renamed
 from robocomp_dsl.generate.exports import ros2_names as rules
 from robocomp_dsl.generate.exports.ros2_types import NAME_CLASH, Ros2Types
 from robocomp_dsl.model.interface import Param
@@ -23,6 +23,7 @@ from robocomp_dsl.model.types import (
     Primitive,
     Type,
 )
+from robocomp_dsl.name_table import NameTable
 
 
 def comment(text: str) -> str:

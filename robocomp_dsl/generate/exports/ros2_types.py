@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate.export import NameTable, report_renamed
+from robocomp_dsl.generate.export import report_renamed
 from robocomp_dsl.generate.exports import ros2_names as rules
 from robocomp_dsl.model.interface import Interface, Module, Operation
 from robocomp_dsl.model.types import (
@@ -35,6 +35,7 @@ from robocomp_dsl.model.types import (
     Type,
 )
 from robocomp_dsl.model.types import Sequence as SequenceType
+from robocomp_dsl.name_table import NameTable
 
 PRIMITIVES = {
     BOOL: "bool",

@@ -6,13 +6,14 @@ is for printing. Within one scope, Slice names are case-insensitive.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate.export import NameTable, report_renamed
+from robocomp_dsl.generate.export import report_renamed
 from robocomp_dsl.model.interface import Interface, Module, Operation, Param
 from robocomp_dsl.model.types import Declaration, Enum, Enumerator, ExceptionType, Field, Struct
+from robocomp_dsl.name_table import NameTable
+from robocomp_dsl.slice_identifiers import valid_name
 
 NamedElement = Declaration | Operation | Param | Field | Enumerator
 
@@ -24,22 +25,11 @@ KEYWORDS = frozenset(
         *("throws", "true", "void"),
     )
 )
-_RESERVED_END = re.compile(r"(?:Prx|Ptr|Helper|Holder)$")
-_BUILT_IN = ("LocalObject", "Object", "Value")
-"""Built-in types of Slice: even an escaped name is sometimes taken for them."""
 
 
 def escape_keyword(name: str) -> str:
     """`name` as it is printed: a keyword gets a backslash."""
     return f"\\{name}" if name in KEYWORDS else name
-
-
-def valid_name(name: str) -> str:
-    """`name` without forbidden parts: outer and double underscores, reserved affixes."""
-    plain = re.sub("_+", "_", name).strip("_") or "n"
-    if plain[0].isdigit() or plain[:3].lower() == "ice":
-        plain = f"n_{plain}"
-    return f"{plain}1" if _RESERVED_END.search(plain) or plain in _BUILT_IN else plain
 
 
 def members(declaration: Declaration) -> Iterator[NamedElement]:

@@ -13,6 +13,7 @@ import struct
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from robocomp_dsl.runtime.codec.source_writer import SourceWriter
 from robocomp_dsl.runtime.data.layout import padding
 
 SIZES = {
@@ -26,8 +27,6 @@ SIZES = {
 HEADER = 0x0100
 """The header 00 01 00 00 (CDR, little endian, no options), read as a little-endian number."""
 
-MAX_NESTED = 15  # Python rejects more than 20 nested blocks
-
 
 def numbers(codes: Iterable[str], start: int) -> struct.Struct:
     """The format of adjacent numbers if the first one's padding starts at `start`."""
@@ -39,7 +38,7 @@ def numbers(codes: Iterable[str], start: int) -> struct.Struct:
     return struct.Struct(form)
 
 
-class Emitter:
+class Emitter(SourceWriter):
     """A function under construction.
 
     `at` is the position if it is known at generation time; else it is the variable `variable` plus
@@ -51,34 +50,12 @@ class Emitter:
     origin = 0
 
     def __init__(self, names: dict[str, Any]) -> None:
-        self.names = names
-        self.lines: list[str] = []
-        self.depth = 2
+        super().__init__(names)
         self.at: int | None = -4
         self.multiple = 1
         self.later: list[str] = []
         self.run: list[tuple[str, str]] = []
-        self._count = 0
-        self._loops = 0
         self._unset = True
-
-    def line(self, text: str) -> None:
-        """Add a line."""
-        self.lines.append("    " * self.depth + text)
-
-    def name(self, letter: str) -> str:
-        """A new variable."""
-        self._count += 1
-        return f"{letter}{self._count}"
-
-    def constant(self, value: Any) -> str:
-        """A name for an object that has no literal."""
-        for name, known in self.names.items():
-            if known is value:
-                return name
-        name = self.name("K")
-        self.names[name] = value
-        return name
 
     def flush(self) -> None:
         """Emit the numbers in `run`."""
@@ -143,26 +120,13 @@ class Emitter:
 
     def loop(self, head: str, body: Callable[[], None]) -> None:
         """A loop; the position inside and after it is unknown."""
-        self._loops += 1
-        if self._loops > MAX_NESTED:
-            raise TypeError(f"more than {MAX_NESTED} sequences within each other")
         self.settle()
-        self.line(head)
-        self.depth += 1
         self.multiple = 1
-        before = len(self.lines)
-        body()
-        self.flush()
-        self.settle()
-        if len(self.lines) == before:
-            self.line("pass")
-        self.depth -= 1
-        self.multiple = 1
-        self._loops -= 1
 
-    def compiled(self, head: str, tail: str, name: str) -> Callable[..., Any]:
-        """The function `name`, its body within `try`; `tail` follows after a failure."""
-        source = "\n".join([head, "    try:", *self.lines, tail])
-        exec(compile(source, f"<{name}>", "exec"), self.names)  # noqa: S102 - from the schema only
-        function: Callable[..., Any] = self.names[name]
-        return function
+        def counted() -> None:
+            body()
+            self.flush()
+            self.settle()
+
+        self.nested(head, counted)
+        self.multiple = 1

@@ -190,13 +190,7 @@ class Runner:
 
     def middlewares_of(self, port: ServedPort | CalledPort) -> tuple[str, ...]:
         """The middlewares of a port, in order of preference."""
-        settings = self.settings
-        external = tuple(peer.middleware for peer in settings.external.get(port.name, ()))
-        if external and port.name not in settings.connections:
-            return tuple(dict.fromkeys(external))
-        chosen = settings.port_middlewares.get(port.name, ())
-        default = (settings.middleware,) if settings.middleware else port.middlewares
-        return tuple(dict.fromkeys((*(chosen or default or (self.spec.middleware,)), *external)))
+        return self.settings.middlewares_of(port.name, port.middlewares, self.spec.middleware)
 
     def _open(self) -> None:
         """Serve and subscribe all ports."""

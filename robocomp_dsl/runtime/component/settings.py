@@ -83,6 +83,18 @@ class RunSettings:
             for peer in self.external.get(port, ())
         )
 
+    def middlewares_of(self, port: str, marked: tuple[str, ...], default: str) -> tuple[str, ...]:
+        """The middlewares of a port, in order of preference.
+
+        `marked` are those of the CDSL file, `default` is that of the component.
+        """
+        external = tuple(peer.middleware for peer in self.external.get(port, ()))
+        if external and port not in self.connections:
+            return tuple(dict.fromkeys(external))
+        chosen = self.port_middlewares.get(port, ())
+        usual = (self.middleware,) if self.middleware else marked
+        return tuple(dict.fromkeys((*(chosen or usual or (default,)), *external)))
+
     def peers_of(self, port: str) -> tuple[str, ...]:
         """The peers that an outgoing port is connected to, by full names."""
         name = self.remaps.get(port)

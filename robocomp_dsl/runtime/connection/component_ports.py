@@ -228,6 +228,8 @@ class ComponentPorts:
             at.peers if role == "subscriber" else (),
         )
         self._opened.append((record, port))
+        if role == "subscriber" and at.external and not at.peers:
+            return  # connected to external programs only: no component publishes to it
         self.presence.declare(record)
 
     def find_servers(self, interface: Interface, timeout: float) -> list[str]:
@@ -251,14 +253,18 @@ class ComponentPorts:
         for _, port in opened:
             if port:
                 port.close()
-        for served in self._served:
-            served.join(0.5)
+        served, self._served = self._served, []
+        for incoming in served:
+            incoming.join(0.5)
         if self._losses:
             self._context.statistics.off_refresh(self._losses.settle)
             self._losses.close()
-        for channel in self._channels:
+        channels, self._channels = self._channels, []
+        for channel in channels:
             channel.close()
-        for transport in self._transports.values():
+        with self._lock:
+            transports, self._transports = self._transports, {}
+        for transport in transports.values():
             transport.close()
         self.presence.close()
 

@@ -165,8 +165,7 @@ class ServiceChannel:
             former.close()
         client = self._connect(self._at, server, self._timeout)
         self._client, self._server = client, server
-        if server not in self._at.external:
-            self._registry.on_lost(server, client.cancel)
+        self._registry.on_lost(server, client.cancel)
 
     def _retry(
         self, operation: Operation, counts: OperationCounts, arguments: tuple[Any, ...]

@@ -165,7 +165,9 @@ class TopicChannel:
 
     def close(self) -> None:
         """End the port on all middlewares."""
-        for port in self._ports:
+        ports, self._ports, self._attaching = self._ports, [], []
+        self._attached.clear()
+        for port in ports:
             port.publisher.close()
             if port.numbers:
                 port.numbers.close()

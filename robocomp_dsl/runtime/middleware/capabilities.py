@@ -49,7 +49,9 @@ class MiddlewareDescription:
 
     `opener` is the function that opens it, as `module:function`, imported on first use: from a
     `TransportContext` to a `Transport`. `requires` are importable modules without which it cannot
-    be opened, and `install` tells how to install them.
+    be opened, and `install` tells how to install them. `configuration` is a function, as
+    `module:function`, that adds the connections of RoboComp's configuration keys to the settings of
+    a component; see `middleware.configured`.
     """
 
     name: str
@@ -58,3 +60,4 @@ class MiddlewareDescription:
     opener: str
     requires: tuple[str, ...] = ()
     install: str = ""
+    configuration: str = ""

@@ -11,14 +11,16 @@ from typing import TYPE_CHECKING
 from robocomp_dsl.runtime.middleware.capabilities import Capabilities, MiddlewareDescription
 
 if TYPE_CHECKING:
-    from importlib.metadata import EntryPoints
+    from importlib.metadata import EntryPoint, EntryPoints
 
     from robocomp_dsl.runtime.middleware.transport import Transport, TransportContext
 
 ENTRY_POINT_GROUP = "robocomp_dsl.middleware"
-BUILT_IN = ("dds", "inproc", "local", "rmw_zenoh", "ros2", "zenoh")
+BUILT_IN = ("dds", "ice", "inproc", "local", "rmw_zenoh", "ros2", "zenoh")
 DEFAULT = "zenoh"
 """The middleware of a component that names none."""
+_broken: dict[str, str] = {}
+"""Why entry points could not be loaded, by name."""
 
 
 class UnknownMiddleware(Exception):
@@ -32,15 +34,32 @@ def middleware_names() -> list[str]:
 
 @cache
 def description_of(name: str) -> MiddlewareDescription | None:
-    """The description of a middleware; None if there is none of this name."""
+    """The description of a middleware; None if there is none of this name, or it is broken."""
     if name in BUILT_IN:
         module = import_module(f"robocomp_dsl.runtime.middleware.{name}.description")
         built_in: MiddlewareDescription = module.MIDDLEWARE
         return built_in
     for point in _entry_points():
         if point.name == name:
-            description: MiddlewareDescription = point.load()
-            return description
+            return _load(point)
+    return None
+
+
+def _load(point: EntryPoint) -> MiddlewareDescription | None:
+    """The description that an entry point names; None if it cannot be loaded."""
+    distribution = point.dist.name if point.dist else "another distribution"
+    try:
+        found = point.load()
+    except Exception as error:  # noqa: BLE001 - code of others
+        reason = f"{type(error).__name__}: {error}"
+    else:
+        if isinstance(found, MiddlewareDescription):
+            return found
+        reason = f"{point.value} is no MiddlewareDescription"
+    _broken[point.name] = (
+        f"the middleware `{point.name}` of {distribution} cannot be loaded: {reason};"
+        f" update or remove it: pip uninstall {distribution}"
+    )
     return None
 
 
@@ -49,6 +68,7 @@ def capabilities_of(name: str) -> Capabilities:
     return _require(name).capabilities
 
 
+@cache
 def known_capabilities(name: str) -> Capabilities | None:
     """The capabilities of a middleware; None if it is unknown, or not installed."""
     description = description_of(name)
@@ -87,6 +107,8 @@ def transport_folder(domain: str, name: str) -> Path:
 def _require(name: str) -> MiddlewareDescription:
     description = description_of(name)
     if description is None:
+        if name in _broken:
+            raise UnknownMiddleware(_broken[name])
         known = ", ".join(middleware_names())
         raise UnknownMiddleware(f"unknown middleware `{name}`; known: {known}")
     return description

@@ -74,9 +74,13 @@ class PortRegistry:
             self.version += 1
 
     def on_lost(self, record: PortRecord, callback: Callable[[], None]) -> None:
-        """Call `callback` once when the port is lost or `interrupt` is called; at once if it is."""
+        """Call `callback` once when the port is lost or `interrupt` is called; at once if it is.
+
+        A port of a program that is no component has no hash; no presence knows when it is lost.
+        """
         with self._changed:
-            present = not self.closed and record in self._records.values()
+            known = not record.hash or record in self._records.values()
+            present = known and not self.closed
             if present:
                 self._on_lost.setdefault(record, []).append(callback)
         if not present:

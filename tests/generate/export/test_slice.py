@@ -11,8 +11,11 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 
+from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.export import export
+from robocomp_dsl.generate.exports.slice_names import SliceNames
 from robocomp_dsl.resources import INTERFACES
+from robocomp_dsl.slice_identifiers import operation_names, valid_name
 from tests.generate.export import exported, random_idsl
 
 SLICE2PY = shutil.which("slice2py")
@@ -46,6 +49,23 @@ def test_slice_export_of_shipped_interfaces_compiles(tmp_path: Path) -> None:
         exported.put(files.files, tmp_path)
     assert {p.stem for p in tmp_path.glob("*.ice")} >= {Path(n).stem for n in exported.SHIPPED}
     assert slice2py(tmp_path) == ""
+
+
+@settings(max_examples=100)
+@given(texts=random_idsl.texts())
+def test_slice_names_of_operations_are_those_on_the_wire(texts: dict[str, str]) -> None:
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for file, text in texts.items():
+            (folder / file).write_text(text)
+        modules = exported.modules(folder / "Text.idsl")
+    names = SliceNames(modules, Report())
+    for module in modules:
+        for interface in module.interfaces:
+            written = {o.name: names[o] for o in interface.operations}
+            # A number that another declaration caused is not known on the wire.
+            if names[interface] == valid_name(interface.name):
+                assert operation_names(interface.name, written) == written
 
 
 @compiled

@@ -16,6 +16,7 @@ from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost
 from robocomp_dsl.runtime.middleware.zenoh.options import publisher_options
+from robocomp_dsl.runtime.middleware.zenoh.undeclare import undeclare
 from robocomp_dsl.runtime.presence import keys
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
@@ -34,6 +35,7 @@ class ZenohServiceClient:
         self._timeout = timeout
         # zenoh itself would wait for the timeout when the server exits.
         self._ended = zenoh.CancellationToken()
+        self._declared: list[Any] = []
 
     def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         """See `ServiceClient`."""
@@ -45,6 +47,7 @@ class ZenohServiceClient:
             consolidation=zenoh.ConsolidationMode.NONE,
             **self._options,
         )
+        self._declared.append(querier)
         get, ended, decode = querier.get, self._ended, operation.decode_reply
         server, timeout = self._server, self._timeout
 
@@ -52,7 +55,7 @@ class ZenohServiceClient:
             counts.bytes_out += len(data)
             try:
                 reply = get(payload=data, cancellation_token=ended).recv()
-            except zenoh.ZError:
+            except (zenoh.ZError, RuntimeError):  # RuntimeError: it is being undeclared
                 raise ServerLost(server) from None
             sample = reply.ok
             if sample is None:
@@ -66,12 +69,13 @@ class ZenohServiceClient:
 
     def _command(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         publisher = self._session.declare_publisher(self._key("c", operation), **self._options)
+        self._declared.append(publisher)
         put = publisher.put
 
         def command(data: bytes) -> None:
             try:
                 put(data)
-            except zenoh.ZError:
+            except (zenoh.ZError, RuntimeError):
                 raise ServerLost(self._server) from None
             counts.bytes_out += len(data)
 
@@ -89,4 +93,5 @@ class ZenohServiceClient:
         self._ended.cancel()
 
     def close(self) -> None:
-        """Nothing to do: the session ends its queriers."""
+        """See `ServiceClient`."""
+        undeclare(self._declared)

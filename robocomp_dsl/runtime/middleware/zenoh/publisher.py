@@ -10,9 +10,11 @@ import zenoh
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.middleware.transport import BoundOperation
 from robocomp_dsl.runtime.middleware.zenoh.held_publisher import HeldPublisher
 from robocomp_dsl.runtime.middleware.zenoh.options import publisher_options
+from robocomp_dsl.runtime.middleware.zenoh.undeclare import undeclare
 from robocomp_dsl.runtime.presence import keys
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
@@ -45,7 +47,12 @@ class ZenohPublisher:
         put = publisher.put
 
         def send(data: bytes, number: bytes) -> None:
-            put(data, attachment=number)
+            try:
+                put(data, attachment=number)
+            except (zenoh.ZError, RuntimeError):  # RuntimeError: it is being undeclared
+                raise MiddlewareError(
+                    f"{self._at.name} is closed: it publishes no longer"
+                ) from None
             counts.bytes_out += len(data)
 
         return BoundOperation(operation.encode_request, send)
@@ -71,4 +78,7 @@ class ZenohPublisher:
         self._stale = True
 
     def close(self) -> None:
-        """Nothing to do: the session ends its publishers."""
+        """See `Publisher`."""
+        self._stale = self._has_subscribers = False
+        undeclare(self._listeners)
+        undeclare(self._publishers)

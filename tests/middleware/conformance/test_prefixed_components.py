@@ -21,6 +21,8 @@ from tests.middleware.network import DEADLINE
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 from tests.support.waiting import wait_until
 
+pytestmark = [pytest.mark.feature("Namespaces"), pytest.mark.needs("services", "topics")]
+
 
 class Base(Component):
     SPEC = ComponentSpec(
@@ -59,11 +61,6 @@ class Arm(Component):
 
 
 Start = Callable[..., Component]
-
-
-@pytest.fixture(params=["inproc", "zenoh"])
-def middleware(request: pytest.FixtureRequest) -> str:
-    return str(request.param)
 
 
 @pytest.fixture

@@ -10,9 +10,11 @@ import pytest
 from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.port_registry import PortRegistry
-from tests.middleware.network import DEADLINE, Network, Node
-from tests.middleware.probe_types import NEWS, PROBE, NewsProxy
+from tests.middleware.network import DEADLINE, Network
+from tests.middleware.probe_types import PROBE, NewsProxy
 from tests.support.waiting import wait_until
+
+pytestmark = pytest.mark.feature("Namespaces")
 
 
 def serve(network: Network, *names: str) -> None:
@@ -27,7 +29,7 @@ def asked(network: Network, client: str, *peers: str) -> int:
 
 def asked_when_all_are_known(network: Network, client: str, count: int) -> int:
     probe = network.node(client).probe()
-    wait_until(lambda: network.kind == "inproc" or len(_known(network)) == count)
+    wait_until(lambda: len(_known(network)) == count)
     return probe.add(0, 0)
 
 
@@ -152,10 +154,6 @@ def test_prefix_routes_publications_of_named_port(network: Network) -> None:
     for name in ("left/base", "right/base"):
         node = network.node(name)
         for port in ("scan", "other"):
-            proxies[f"{name}.{port}"] = _news(node, port)
+            proxies[f"{name}.{port}"] = node.news(port)
     _publish(proxies, lambda: received)
     assert received == {"left/base.scan"}
-
-
-def _news(node: Node, port: str) -> NewsProxy:
-    return NewsProxy(node.ports.advertise(node.at(NEWS, port)))

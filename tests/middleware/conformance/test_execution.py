@@ -5,9 +5,13 @@ from __future__ import annotations
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
+import pytest
+
 from tests.middleware.network import DEADLINE, Network
 from tests.middleware.probe_types import ProbeProxy
 from tests.support.waiting import wait_until
+
+pytestmark = [pytest.mark.feature("Callback groups"), pytest.mark.needs("services")]
 
 
 def blocked(free: threading.Event) -> None:

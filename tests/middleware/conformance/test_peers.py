@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
@@ -12,8 +11,10 @@ from robocomp_dsl.runtime.errors import (
     RemoteError,
 )
 from tests.middleware.network import DEADLINE, Network
-from tests.middleware.probe_handlers import HANDLERS, blocked
+from tests.middleware.probe_handlers import HANDLERS
 from tests.support.waiting import wait_until
+
+pytestmark = [pytest.mark.feature("Servers that come and go"), pytest.mark.needs("services")]
 
 
 def test_proxy_follows_restarted_server(network: Network) -> None:
@@ -53,44 +54,12 @@ def test_proxy_reports_departed_server_at_once(network: Network, how: str) -> No
 @pytest.mark.usefixtures("short_discovery_timeout")
 def test_domains_are_separate(network: Network) -> None:
     network.node("server").serve(HANDLERS)
-    other = Network(network.kind)
+    other = Network(network.middleware)
     try:
         with pytest.raises(NoServer):
             other.node("client").probe().add(1, 2)
     finally:
         other.close()
-
-
-def test_interrupt_ends_waiting_call(network: Network) -> None:
-    if network.kind == "inproc":
-        pytest.skip("a call within the process runs in the caller; there is nothing to wait for")
-    free = threading.Event()
-    server = network.node("server")
-    server.serve({"block": lambda: blocked(free)})
-    client = network.node("client")
-    with ThreadPoolExecutor(1) as pool:
-        asked = pool.submit(client.probe().block)
-        wait_until(lambda: server.execution.busy)
-        client.ports.interrupt()
-        with pytest.raises(NoServer, match="stopping"):
-            asked.result(DEADLINE)
-        free.set()
-
-
-def test_calls_after_component_end_report_it(network: Network) -> None:
-    if network.kind == "inproc":
-        pytest.skip("a call within the process needs no connection")
-    network.node("server").serve(HANDLERS)
-    client = network.node("client")
-    called, fresh = client.probe(), client.probe()
-    assert called.add(1, 2) == 3
-    called.note("before")
-    client.ports.close()
-    for probe in (called, fresh):
-        with pytest.raises(NoServer, match="stopping"):
-            probe.add(1, 2)
-        with pytest.raises(NoServer, match="stopping"):
-            probe.note("after")
 
 
 def test_calls_are_counted(network: Network) -> None:

@@ -17,8 +17,10 @@ from robocomp_dsl.runtime.errors import (
 )
 from tests.middleware.network import DEADLINE, Network
 from tests.middleware.probe_handlers import HANDLERS, blocked
-from tests.middleware.probe_types import OTHER_PROBE, Broken
+from tests.middleware.probe_types import OTHER_PROBE, PROBE, Broken
 from tests.support.waiting import wait_until
+
+pytestmark = [pytest.mark.feature("Queries and commands"), pytest.mark.needs("services")]
 
 
 def test_query_returns_result(network: Network) -> None:
@@ -90,8 +92,9 @@ def test_several_servers_are_ambiguous_until_one_is_named(network: Network) -> N
     client = network.node("client")
     assert client.probe("right").add(0, 0) == 2
     assert client.probe("left.Probe").add(0, 0) == 1
+    registry = client.ports.presence.registry
+    wait_until(lambda: len(registry.find("server", PROBE.name)) == 2)
     probe = client.probe()
-    wait_until(lambda: network.kind == "inproc" or probe.wait_for_server(1))
     with pytest.raises(AmbiguousServer, match=r"left\.Probe, right\.Probe.*--connect Probe=left"):
         probe.add(0, 0)
 

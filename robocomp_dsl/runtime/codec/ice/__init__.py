@@ -1,0 +1,1 @@
+"""Ice encoding 1.1; `codec` is the entry point."""

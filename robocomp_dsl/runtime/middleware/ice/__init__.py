@@ -1,0 +1,1 @@
+"""ZeroC Ice 3.7: `transport` connects one component."""

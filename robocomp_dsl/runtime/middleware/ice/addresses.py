@@ -1,0 +1,46 @@
+"""Addresses of ports on Ice.
+
+In: texts of users and of port records. Out: their parts. The record of a served port has one or
+two lines: the proxy for queries, and that for commands if it is another one.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+ICESTORM = "icestorm:"
+"""Start of the address of a topic of IceStorm."""
+_ENDPOINT = re.compile(r"\s*(?:tcp|ssl|ws|wss|udp|default)\b")
+_IDENTITY = re.compile(r"\s*([^\s:@]+)\s*:(.*)", re.DOTALL)
+
+
+class FixedAddress(NamedTuple):
+    """Where the user wants a port: its object identity and the endpoints of its adapter."""
+
+    identity: str
+    endpoints: str
+
+
+def parse_fixed(text: str, port: str) -> FixedAddress:
+    """`tcp -p 10001`, or `laser:tcp -p 10001`; RoboComp names the object after the interface.
+
+    Raises `ValueError` with the valid form.
+    """
+    if _ENDPOINT.match(text):
+        return FixedAddress(port.lower(), text.strip())
+    match = _IDENTITY.fullmatch(text)
+    if match and _ENDPOINT.match(match[2]):
+        return FixedAddress(match[1], match[2].strip())
+    raise ValueError(f"`{text}` is no address of Ice; write such as `tcp -p 10001`")
+
+
+def join_proxies(queries: str, commands: str) -> str:
+    """The address of a served port."""
+    return queries if commands == queries else f"{queries}\n{commands}"
+
+
+def split_proxies(address: str) -> tuple[str, str]:
+    """The proxies of an address for queries and for commands."""
+    queries, _, commands = address.partition("\n")
+    return queries, commands or queries

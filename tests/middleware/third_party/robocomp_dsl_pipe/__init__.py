@@ -1,0 +1,1 @@
+"""A middleware of another distribution: messages with a length in front, over unix sockets."""
