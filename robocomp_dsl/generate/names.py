@@ -43,9 +43,9 @@ BUILTINS = frozenset(_BUILTINS.split())
 """Python's own names; a list, because `dir(builtins)` differs between versions."""
 
 _MODULE = """INTERFACE SCHEMA SPEC annotations np rt main interfaces params genericworker
-specificworker Annotated Any Callable overload Literal GenericWorker SpecificWorker Component ComponentSpec
-CalledPort ServedPort Group Parameter ParameterGroup Parameters initialize compute emergency restore
-finalize"""
+specificworker Annotated Any Callable overload Literal GenericWorker SpecificWorker Component
+ComponentSpec CalledPort ServedPort Group Parameter ParameterGroup Parameters initialize compute
+emergency restore finalize"""
 MODULE = frozenset(_MODULE.split())
 """Names of generated modules and classes that are not the user's."""
 

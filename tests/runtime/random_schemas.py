@@ -12,9 +12,7 @@ from hypothesis import strategies as st
 from robocomp_dsl.runtime import types as rt
 
 ROS_NUMBERS = (rt.INT8, rt.OCTET, rt.UINT16, rt.UINT32, rt.UINT64)
-SLICE_NUMBERS = (rt.BYTE, rt.SHORT, rt.INT, rt.LONG, rt.FLOAT, rt.DOUBLE)
-SLICE_FIXED = (*SLICE_NUMBERS, rt.BOOL)
-NUMBERS = (*SLICE_NUMBERS, *ROS_NUMBERS)
+NUMBERS = (rt.BYTE, rt.SHORT, rt.INT, rt.LONG, rt.FLOAT, rt.DOUBLE, *ROS_NUMBERS)
 FIXED = (*NUMBERS, rt.BOOL)
 PRIMITIVES = (*FIXED, rt.STRING)
 
@@ -38,6 +36,15 @@ def enumeration(values: list[int]) -> type[rt.Enum]:
     return rt.Enum(f"Enum{next(_serial)}", {f"E{i}": value for i, value in enumerate(values)})  # type: ignore[return-value]
 
 
+limits = (
+    st.just({})
+    | st.integers(1, 5).map(lambda size: {"size": size})
+    | st.integers(1, 5).map(lambda bound: {"bound": bound})
+)
+few = st.sampled_from([{}, {"size": 1}, {"size": 2}, {"bound": 2}])
+bounded_strings = st.integers(1, 9).map(lambda bound: replace(rt.STRING, bound=bound))
+
+
 def _enums(minimum: int, maximum: int) -> st.SearchStrategy[Any]:
     numbers = st.integers(minimum, maximum)
     return st.lists(numbers, min_size=1, max_size=4, unique=True).map(enumeration)
@@ -48,40 +55,32 @@ def _sequence(element: Any, limit: dict[str, int]) -> Any:
     return (rt.Array if is_number else rt.Sequence)(element, **limit)
 
 
-_unlimited: st.SearchStrategy[dict[str, int]] = st.just({})
-_limits = (
-    _unlimited
-    | st.integers(1, 5).map(lambda size: {"size": size})
-    | st.integers(1, 5).map(lambda bound: {"bound": bound})
-)
-_small_limits = st.sampled_from([{}, {"size": 1}, {"size": 2}, {"bound": 2}])
-_bounded_strings = st.integers(1, 9).map(lambda bound: replace(rt.STRING, bound=bound))
+def _types(
+    enums: st.SearchStrategy[Any], *, struct_keys: bool, ros: bool
+) -> st.SearchStrategy[Any]:
+    """Types with these enums; dictionaries may have structs of numbers as keys.
 
-
-def _types(enums: st.SearchStrategy[Any], *, slice_only: bool) -> st.SearchStrategy[Any]:
-    """Types with these enums; with `slice_only` those that Slice has.
-
-    Slice lacks unsigned numbers, fixed and bounded sequences, and structs as keys.
+    `ros`: also the numbers, arrays and strings that only ROS definitions have.
     """
-    numbers = SLICE_FIXED if slice_only else FIXED
-    limits, small_limits = (_unlimited, _unlimited) if slice_only else (_limits, _small_limits)
-    leaves = st.sampled_from(numbers) | enums
+    fixed = [type_ for type_ in FIXED if ros or type_ not in ROS_NUMBERS]
+    any_length, short = (limits, few) if ros else (st.just({}), st.just({}))
+    texts = bounded_strings | st.just(rt.STRING) if ros else st.just(rt.STRING)
+    leaves = st.sampled_from(fixed) | enums
     fixed_structs = st.recursive(
         st.lists(leaves, min_size=1, max_size=5).map(struct_of),
         lambda inner: st.lists(leaves | inner, min_size=1, max_size=4).map(struct_of),
         max_leaves=4,
     )
     keys = st.sampled_from((rt.BYTE, rt.SHORT, rt.INT, rt.LONG, rt.STRING, rt.BOOL)) | enums
-    arrays = st.builds(_sequence, st.sampled_from(numbers), limits)
-    flat = st.sampled_from((*numbers, rt.STRING)) | enums | arrays
-    if not slice_only:
+    if struct_keys:
         keys |= fixed_structs
-        flat |= _bounded_strings
+    flat = st.sampled_from(fixed) | texts | enums
+    flat |= st.builds(_sequence, st.sampled_from(fixed), any_length)
     return st.recursive(
         flat,
         lambda inner: (
             st.lists(inner, max_size=5).map(struct_of)
-            | st.builds(_sequence, inner, small_limits)
+            | st.builds(_sequence, inner, short)
             | fixed_structs.map(array_of)
             | st.builds(rt.Dictionary, keys, inner)
         ),
@@ -89,8 +88,8 @@ def _types(enums: st.SearchStrategy[Any], *, slice_only: bool) -> st.SearchStrat
     )
 
 
-types = _types(_enums(-(2**31), 2**31 - 1), slice_only=False)
-slice_types = _types(_enums(0, 300) | _enums(0, 2**31 - 1), slice_only=True)
+types = _types(_enums(-(2**31), 2**31 - 1), struct_keys=True, ros=True)
+slice_types = _types(_enums(0, 300) | _enums(0, 2**31 - 1), struct_keys=False, ros=False)
 """Types that Slice has, too."""
 
 structs = st.lists(types, max_size=5).map(struct_of)

@@ -114,7 +114,8 @@ class _Resolver:
     def _fields(
         self, trees: Sequence[ast.Field], constants: Sequence[ast.Constant] = ()
     ) -> tuple[types.Field, ...]:
-        unique = unique_by_name((*constants, *trees), "field", self._report)
+        members: tuple[ast.Field | ast.Constant, ...] = (*constants, *trees)
+        unique = unique_by_name(members, "field", self._report)
         fields = (self._field(node) for node in unique if isinstance(node, ast.Field))
         return tuple(node for node in fields if node is not None)
 
@@ -174,7 +175,7 @@ class _Resolver:
             return None
 
     def _constants(self, trees: Sequence[ast.Constant]) -> tuple[types.Constant, ...]:
-        constants = {}
+        constants: dict[str, types.Constant] = {}
         for tree in trees:
             type_ = self._names.data(tree.type)
             if not isinstance(type_, types.Primitive):

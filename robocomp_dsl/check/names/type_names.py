@@ -24,10 +24,13 @@ _DATA = (types.Struct, types.Enum, types.Sequence, types.Dictionary)
 _FOREIGN = {
     "boolean": "bool",
     "char": "byte",
+    "int8": "short",
     "uint8": "byte",
     "int16": "short",
     "int32": "int",
     "unsigned": "int",
+    "uint16": "int",
+    "uint32": "long",
     "int64": "long",
     "real": "float",
     "float32": "float",

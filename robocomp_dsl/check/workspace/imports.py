@@ -11,12 +11,16 @@ from pathlib import Path
 from robocomp_dsl.check.codes import names as codes
 from robocomp_dsl.check.workspace.import_resolver import SUFFIX, ImportResolver, base_name
 from robocomp_dsl.check.workspace.ros_definitions import canonical_name, is_ros_import
-from robocomp_dsl.check.workspace.ros_imports import report_missing_definition
+from robocomp_dsl.check.workspace.ros_imports import (
+    report_definition_in_component,
+    report_missing_definition,
+)
 from robocomp_dsl.diagnostics import Edit, Fix, Note, Report
 from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast.base import Import
 
 _SLICE = "ice"
+_COMPONENT = ".cdsl"
 
 CycleStep = tuple[str, Import]
 """A file and the statement that imports the next file of the cycle."""
@@ -38,7 +42,9 @@ def find_import(
     found = locate_import(statement, root, search)
     name = base_name(statement.path.value)
     if is_ros_import(name):
-        if found is None:
+        if statement.span.source.path.suffix.lower() == _COMPONENT:
+            report_definition_in_component(statement, report)
+        elif found is None:
             report_missing_definition(statement, root, search, report)
     elif found is None:
         if name.lower().endswith(SUFFIX):

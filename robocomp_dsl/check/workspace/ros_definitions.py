@@ -82,20 +82,17 @@ class RosDefinitions:
         return list(dict.fromkeys((*names, *_stored_names())))
 
     def suggest(self, written: str, beside: Path, root: Path) -> list[str]:
-        """The importable definitions with the same name, else the one with the closest name."""
+        """The definitions with the same name, else the closest one of the closest package."""
         known = self.importable(beside, root)
         file = written.rpartition("/")[2]
         same = [name for name in known if name.rpartition("/")[2].lower() == file.lower()]
         if same:
             return same
-        name = canonical_name(written)
-        near = nearest(name or file, known)
-        if near is None and name:
-            package = name.partition("/")[0]
-            inside = {n.rpartition("/")[2]: n for n in known if n.startswith(f"{package}/")}
-            closest = nearest(file, inside)
-            near = inside[closest] if closest else None
-        return [near] if near else []
+        packages = {name.partition("/")[0] for name in known}
+        package = nearest(canonical_name(written).partition("/")[0], packages)
+        inside = {n.rpartition("/")[2]: n for n in known if n.partition("/")[0] == package}
+        near = nearest(file, inside)
+        return [inside[near]] if near else []
 
 
 def _candidates(folder: Path, name: str) -> Iterator[Path]:

@@ -48,6 +48,17 @@ def report_missing_definition(
     )
 
 
+def report_definition_in_component(statement: Import, report: Report) -> None:
+    """Report a definition that a component imports: it declares no interface."""
+    report.add(
+        codes.NOT_IMPORTABLE,
+        statement.path.span,
+        f"`{statement.path.value}` declares types, but a component imports interfaces",
+        help="import it in the IDSL file whose operations use the type",
+        fix=Fix("remove the import", (Edit(statement.span, ""),)),
+    )
+
+
 def _store() -> str:
     from robocomp_dsl.check.workspace import ros_store  # noqa: PLC0415 - loads rosbags
 

@@ -1,8 +1,8 @@
 """The ROS definitions inside the library rosbags, for machines without ROS.
 
 In: the name of a definition. Out: a file in the user's cache, so that editors can open it, or a
-virtual file with the same path if the cache is not writable. Without rosbags (the extra `ros`) there
-are no definitions. rosbags has messages only, without comments.
+virtual file with the same path if the cache is not writable. Without rosbags (the extra `ros`)
+there are no definitions. rosbags has messages only, without comments and defaults.
 """
 
 from __future__ import annotations

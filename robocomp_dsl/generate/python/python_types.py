@@ -41,7 +41,7 @@ from robocomp_dsl.record import ValueRecord
 
 _ANNOTATION = {BOOL: "bool", STRING: "str", FLOAT: "float", DOUBLE: "float"}  # others: int
 _UNSIGNED = {UINT16: "rt.UInt16", UINT32: "rt.UInt32", UINT64: "rt.UInt64"}
-_ZERO = {BOOL: "False", STRING: '""', FLOAT: "0.0", DOUBLE: "0.0"}  # others: 0
+_ZERO: dict[Type, str] = {BOOL: "False", STRING: '""', FLOAT: "0.0", DOUBLE: "0.0"}  # others: 0
 
 
 class NumpyArray(ValueRecord):
@@ -190,7 +190,7 @@ def _declared_primitive(type_: Primitive) -> str:
 def _primitive(type_: Type, default: Literal | None) -> str:
     if default is None:
         is_text = isinstance(type_, Primitive) and type_.is_text
-        return '""' if is_text else _ZERO.get(type_, "0")  # type: ignore[call-overload]
+        return '""' if is_text else _ZERO.get(type_, "0")
     return python_value(float(default) if type_ in (FLOAT, DOUBLE) else default)
 
 

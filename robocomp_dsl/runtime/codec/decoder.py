@@ -183,7 +183,7 @@ class _Decoder(Emitter):
         if type_.size:
             name = self.fixed(dtype, type_.size)
         else:
-            name = self.block(dtype, primitive.size, primitive.size, type_.bound)
+            name = self.block(dtype, primitive.size, primitive.size, type_)
         if primitive is BOOL:
             self.line(f"{name} = {self.constant(flags)}({name})")
         return name
@@ -203,16 +203,14 @@ class _Decoder(Emitter):
         self.skip(count * size)
         return name
 
-    def limit(self, count: str, bound: int) -> None:
-        """Fail for a count above the bound."""
-        if bound:
-            self.line(f"if {count} > {bound}: raise ValueError")
-
-    def block(self, dtype: np.dtype[Any], size: int, alignment: int, bound: int = 0) -> str:
+    def block(
+        self, dtype: np.dtype[Any], size: int, alignment: int, type_: Array | None = None
+    ) -> str:
         """A count, and as many elements in numpy's memory layout."""
         count, name = self.number("I"), self.name("a")
         start = self.start()
-        self.limit(count, bound)
+        if type_:
+            self.limit(type_, count)
         if alignment == 8:
             self.settle()
             start = "o"
@@ -245,7 +243,8 @@ class _Decoder(Emitter):
         count = str(type_.size) if type_.size else self.number("I")
         name = self.name("q")
         self.flush()
-        self.limit(count, type_.bound)
+        if not type_.size:
+            self.limit(type_, count)
         self.line(f"{name} = []")
 
         def body() -> None:

@@ -181,18 +181,11 @@ class _Encoder(Emitter):
             f"if {name}.__class__ is not ndarray or {name}.dtype is not {kind}"
             f" or {name}.strides != {strides}: {name} = as_array({name}, {kind})"
         )
-        self.limit(type_, name)
+        self.limit(type_, f"len({name})")
         if type_.size:
             self.fixed(name, type_.size, dtype.itemsize)
         else:
             self.block(name, dtype.itemsize, dtype.itemsize)
-
-    def limit(self, type_: Array | Sequence, name: str) -> None:
-        """Fail for a sequence that does not have the length of its type."""
-        if type_.size:
-            self.line(f"if len({name}) != {type_.size}: raise ValueError")
-        elif type_.bound:
-            self.line(f"if len({name}) > {type_.bound}: raise ValueError")
 
     def fixed(self, name: str, count: int, size: int) -> None:
         """The memory of a fixed array, after the padding that its elements need."""
@@ -261,7 +254,7 @@ class _Encoder(Emitter):
         name, item = self.assigned("q", expression), self.name("e")
         items = self.constant(as_list)
         self.line(f"if {name}.__class__ is not list: {name} = {items}({name})")
-        self.limit(type_, name)
+        self.limit(type_, f"len({name})")
         if type_.size:
             self.flush()
         else:

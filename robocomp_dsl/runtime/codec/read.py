@@ -54,6 +54,20 @@ def read_number(message: Any, limit: int, what: str) -> int:
     return number
 
 
+def check_length(type_: Array | Sequence, count: int, path: str, offset: int) -> None:
+    """Raise `MalformedMessage` for a number of elements that the type does not have."""
+    if type_.size and count != type_.size:
+        raise MalformedMessage(f"{count} elements instead of {type_.size}", path, offset)
+    if type_.bound and count > type_.bound:
+        raise MalformedMessage(f"{count} elements, more than {type_.bound}", path, offset)
+
+
+def check_text_length(type_: Primitive, size: int, path: str, offset: int) -> None:
+    """Raise `MalformedMessage` for a text of more bytes than the type has."""
+    if type_.bound and size > type_.bound:
+        raise MalformedMessage(f"a text of {size} bytes, longer than {type_.bound}", path, offset)
+
+
 class _Reader:
     """The bytes and the read position; all offsets from the start of the message."""
 
@@ -106,8 +120,7 @@ class _Reader:
         if type_.size:
             return type_.size
         count = self.count(path, size)
-        if type_.bound and count > type_.bound:
-            raise MalformedMessage(f"{count} elements, more than {type_.bound}", path, self.at - 4)
+        check_length(type_, count, path, self.at - 4)
         return count
 
     def value(self, type_: Type, path: str) -> Any:
@@ -133,7 +146,7 @@ class _Reader:
     def primitive(self, type_: Primitive, path: str) -> Any:
         """A number, a bool or a string."""
         if type_.is_text:
-            return self.text(path, type_.bound)
+            return self.text(type_, path)
         if type_ is BOOL:
             number = self.number("B", path)
             if number > 1:
@@ -141,13 +154,10 @@ class _Reader:
             return bool(number)
         return self.number(type_.code, path)
 
-    def text(self, path: str, bound: int) -> str:
+    def text(self, type_: Primitive, path: str) -> str:
         """Length, UTF-8, NUL."""
         length = self.number("I", path)
-        if bound and length > bound + 1:
-            raise MalformedMessage(
-                f"a text of {length - 1} bytes, longer than {bound}", path, self.at - 4
-            )
+        check_text_length(type_, length - 1, path, self.at - 4)
         start = self.take(length, path)
         if not length:
             return ""

@@ -47,7 +47,7 @@ FLOAT = Primitive("float", "f", 4)
 DOUBLE = Primitive("double", "d", 8)
 STRING = Primitive("string", "", 4)  # its length prefix
 
-# Only imported ROS types have these; ROS's uint8, int16, int32 and int64 are BYTE, SHORT, INT, LONG.
+# Only imported ROS types have these; ROS's uint8, int16, int32, int64 are BYTE, SHORT, INT, LONG.
 INT8 = Primitive("int8", "b", 1)
 OCTET = Primitive("octet", "B", 1)  # `byte` in ROS, whose type description tells it from uint8
 UINT16 = Primitive("uint16", "H", 2)
@@ -179,7 +179,7 @@ def schema_of(annotation: Any) -> Type:
             [schema_of(argument) for argument in get_args(annotation)],
         )
         if origin is list:
-            return Sequence(*inner)
+            return Sequence(inner[0])
         if origin is dict:
             return Dictionary(*inner)
     elif isinstance(annotation, _OBJECTS) or _is_declared(annotation):

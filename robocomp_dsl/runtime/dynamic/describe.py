@@ -64,7 +64,8 @@ class _TypeTable:
         if cls not in self._names:
             texts = self.documentation.of_type(cls)
             info = _enum(cls, texts) if issubclass(cls, Enum) else self._struct(cls, texts)
-            info.name = self._unused(str(texts.get("name", cls.__name__)))
+            name = getattr(cls, "_type_id_", "") or texts.get("name", cls.__name__)
+            info.name = self._unused(str(name))
             self._names[cls] = info.name
             self.infos.append(info)
         return self._names[cls]

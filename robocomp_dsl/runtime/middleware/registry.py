@@ -50,7 +50,7 @@ def _load(point: EntryPoint) -> MiddlewareDescription | None:
     distribution = point.dist.name if point.dist else "another distribution"
     try:
         found = point.load()
-    except Exception as error:  # noqa: BLE001 - code of others
+    except Exception as error:
         reason = f"{type(error).__name__}: {error}"
     else:
         if isinstance(found, MiddlewareDescription):

@@ -16,18 +16,12 @@ from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax.ast import idsl as ast
 from robocomp_dsl.syntax.ast.base import Import, Name, QualifiedName, Text, Unit
 from robocomp_dsl.syntax.codes import ros as codes
-from robocomp_dsl.syntax.ros.lines import Section, Statement, read_sections
+from robocomp_dsl.syntax.parse import ROS_PARTS
+from robocomp_dsl.syntax.ros.lines import DefinitionLine, Section, read_sections
 from robocomp_dsl.syntax.ros.values import parse_items, parse_value
 
-PARTS = {
-    ".msg": ("",),
-    ".srv": ("_Request", "_Response"),
-    ".action": ("_Goal", "_Result", "_Feedback"),
-}
-"""What the structs of a definition have behind its name."""
-NUMBERS = frozenset(
-    """byte char int8 uint8 int16 uint16 int32 uint32 int64 uint64 float32 float64""".split()
-)
+_SIZED = [f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)]
+NUMBERS = frozenset(("byte", "char", "float32", "float64", *_SIZED))
 BUILT_IN = NUMBERS | {"bool", "string"}
 """The built-in types of ROS definitions."""
 MAX_LENGTH = 1_000_000
@@ -45,11 +39,10 @@ _ROS1 = {
 }
 """Types that ROS 1 definitions name without a package."""
 _UNSUPPORTED = ("wstring", "wchar", "float128")
-_UNITS = {
-    **{unit: unit for unit in ("m", "s", "rad", "deg", "Hz", "N", "Nm", "V", "A", "Ah", "Pa", "T")},
-    **{unit: unit for unit in ("m/s", "m/s^2", "rad/s", "rad/s^2", "kg", "lx", "px")},
-    **{"meters": "m", "seconds": "s", "radians": "rad", "degrees": "deg"},
-}
+_SYMBOLS = ("m", "s", "rad", "deg", "Hz", "N", "Nm", "V", "A", "Ah", "Pa", "T", "kg", "px")
+_RATES = ("m/s", "m/s^2", "rad/s", "rad/s^2")
+_WORDS = {"meters": "m", "seconds": "s", "radians": "rad", "degrees": "deg"}
+_UNITS = {unit: unit for unit in (*_SYMBOLS, *_RATES)} | _WORDS
 """Words in brackets that are units in comments of ROS definitions."""
 _BRACKETS = re.compile(r"\[([^\[\]]+)\]")
 
@@ -82,30 +75,31 @@ class _Builder:
 
     def file(self) -> ast.File:
         """The whole tree."""
-        parts = PARTS[self._source.path.suffix.lower()]
+        parts = ROS_PARTS[self._source.path.suffix.lower()]
         sections = read_sections(self._source)
         self._check_sections(sections, len(parts))
+        size = len(self._source.text)
+        ends = [*(section.span.start for section in sections[1:]), size]
         structs = [
-            self._struct(f"{self._name}{part}", section)
-            for part, section in zip(parts, sections, strict=False)
+            self._struct(f"{self._name}{part}", section, end)
+            for part, section, end in zip(parts, sections, ends, strict=False)
         ]
-        span = self._source.span(0, len(self._source.text))
-        module = ast.Module(
-            span, Name(self._source.file_span, self._package), tuple(structs), is_ros=True
-        )
+        span = self._source.span(0, size)
+        # Not where the first struct is: positions identify declarations.
+        name = Name(self._source.span(size, size), self._package)
+        module = ast.Module(span, name, tuple(structs), is_ros=True)
         return ast.File(span, tuple(self._imports.values()), (module,), not self._failed)
 
     def _check_sections(self, sections: list[Section], expected: int) -> None:
         suffix = self._source.path.suffix.lower()
+        number = ("no line", "one line", "two lines")[expected - 1]
+        message = f"a `{suffix}` file has {number} `---` between its parts"
         if len(sections) > expected:
-            number = "no" if expected == 1 else f"only {expected - 1}"
-            self._add(sections[expected].span, f"a `{suffix}` file has {number} line `---`")
+            self._add(sections[expected].span, message)
         elif len(sections) < expected:
-            end = self._source.span(len(self._source.text), len(self._source.text))
-            number = "one line" if expected == 2 else "two lines"
-            self._add(end, f"a `{suffix}` file has {number} `---`, which separate its parts")
+            self._add(self._source.span(len(self._source.text), len(self._source.text)), message)
 
-    def _struct(self, name: str, section: Section) -> ast.Struct:
+    def _struct(self, name: str, section: Section, end: int) -> ast.Struct:
         fields: list[ast.Field] = []
         constants: list[ast.Constant] = []
         for statement in section.statements:
@@ -115,7 +109,7 @@ class _Builder:
             elif node is not None:
                 constants.append(node)
         return ast.Struct(
-            section.span,
+            self._source.span(section.span.start, end),
             Name(section.span, name),
             tuple(fields),
             section.doc,
@@ -123,10 +117,10 @@ class _Builder:
             f"{self._package}/{self._folder}/{name}",
         )
 
-    def _statement(self, statement: Statement) -> ast.Field | ast.Constant | None:
+    def _statement(self, statement: DefinitionLine) -> ast.Field | ast.Constant | None:
         span = statement.span
         found = _STATEMENT.fullmatch(span.text)
-        if found is None:
+        if found is None or found["rest"] == ";":
             self._report_statement(span)
             return None
         type_ = self._type(self._part(span, found, "type"))
@@ -148,14 +142,15 @@ class _Builder:
         items = parse_items(rest, type_.text) if array else ()
         if items is None:
             self._add(rest, "the default of an array is a list, such as `[1, 2]`")
+        unit, doc = _unit(name, statement.doc) if type_.text in NUMBERS else (None, statement.doc)
         default = parse_value(rest, type_.text) if found["rest"] and not array else None
         return ast.Field(
             span,
             type_,
             name,
             default,
-            _unit(name, statement.doc) if type_.text in NUMBERS else None,
-            statement.doc,
+            unit,
+            doc,
             array,
             int(found["text"] or 0),
             items or (),
@@ -203,16 +198,16 @@ class _Builder:
         return ast.Array(brackets, size=length)
 
     def _report_statement(self, span: Span) -> None:
-        text = span.text
-        fix = None
-        if text.endswith(";") and _STATEMENT.fullmatch(text.rstrip("; ")):
-            extra = span.subspan(span.start + len(text.rstrip("; ")), span.end)
-            fix = Fix("remove the `;`", (Edit(extra, ""),))
+        plain = span.text.rstrip("; ")
+        if plain != span.text and _STATEMENT.fullmatch(plain):
+            end = span.subspan(span.start + len(plain), span.end)
+            fix = Fix("remove the `;`", (Edit(end, ""),))
+            self._add(end, "a line of a ROS definition does not end with `;`", fix=fix)
+            return
         self._add(
             span,
-            f"`{text}` is neither a field nor a constant",
+            f"`{span.text}` is neither a field nor a constant",
             help_="a field is `type name`, a constant is `type NAME=value`",
-            fix=fix,
         )
 
     def _add(self, span: Span, message: str, help_: str = "", fix: Fix | None = None) -> None:
@@ -220,9 +215,10 @@ class _Builder:
         self._report.add(codes.ROS_STATEMENT, span, message, help=help_, fix=fix)
 
 
-def _unit(name: Name, doc: str) -> Unit | None:
-    """The unit that a comment has in brackets, as `[rad]`."""
+def _unit(name: Name, doc: str) -> tuple[Unit | None, str]:
+    """The unit that a comment has in brackets, as `[rad]`, and the comment without it."""
     for found in _BRACKETS.finditer(doc):
         if unit := _UNITS.get(found[1].strip()):
-            return Unit(name.span, unit)
-    return None
+            rest = doc[: found.start()].rstrip() if found.end() == len(doc) else doc
+            return Unit(name.span, unit), rest
+    return None, doc

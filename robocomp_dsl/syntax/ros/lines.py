@@ -12,7 +12,7 @@ from robocomp_dsl.source import Source, Span
 SEPARATOR = "---"
 
 
-class Statement(Record):
+class DefinitionLine(Record):
     """A field or constant without its comments; `span` covers it."""
 
     span: Span
@@ -23,7 +23,7 @@ class Section(Record):
     """What is between two separators; `span` is its separator, or the start of the file."""
 
     span: Span
-    statements: tuple[Statement, ...]
+    statements: tuple[DefinitionLine, ...]
     doc: str
 
 
@@ -108,7 +108,7 @@ class _Reader:
         statements = zip(self._spans, self._docs, strict=True)
         return Section(
             self._span,
-            tuple(Statement(span, _joined(doc)) for span, doc in statements),
+            tuple(DefinitionLine(span, _joined(doc)) for span, doc in statements),
             _joined(self._head),
         )
 

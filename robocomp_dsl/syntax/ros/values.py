@@ -16,6 +16,7 @@ _FLOAT = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _ESCAPE = re.compile(r"\\(.)")
 _ITEM = re.compile(r"""\s*("(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'|[^,]*)\s*(?:,|$)""")
 _BOOLS = {"true": True, "false": False}
+_NUMERIC_BOOLS = {"1": True, "0": False}
 
 
 def parse_value(span: Span, type_: str) -> Literal | None:
@@ -26,10 +27,9 @@ def parse_value(span: Span, type_: str) -> Literal | None:
         return Text(span, _unquoted(text))
     if not text:
         return None
-    if text.lower() in _BOOLS:
-        return Bool(span, _BOOLS[text.lower()])
-    if type_ == "bool" and text in ("0", "1"):
-        return Bool(span, text == "1")
+    bools = _BOOLS | _NUMERIC_BOOLS if type_ == "bool" else _BOOLS
+    if text.lower() in bools:
+        return Bool(span, bools[text.lower()])
     if _INTEGER.fullmatch(text):
         prefixed = text.lstrip("+-")[:2].lower() in ("0x", "0b", "0o")
         return Number(span, int(text, 0) if prefixed else int(text))

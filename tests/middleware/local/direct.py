@@ -20,9 +20,7 @@ from tests.middleware.probe_types import PROBE
 
 FRAMES = rt.Interface(
     "Test::Frames",
-    rt.Operation(
-        "taken", rt.Pattern.PUBLISH, inputs={"number": rt.Int, "pixels": rt.UInt8Array}
-    ),
+    rt.Operation("taken", rt.Pattern.PUBLISH, inputs={"number": rt.Int, "pixels": rt.UInt8Array}),
 )
 TIMEOUT_S = 60.0
 

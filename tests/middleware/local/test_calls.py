@@ -214,4 +214,3 @@ def test_nested_calls_between_two_components_do_not_deadlock(side: Open) -> None
     call_left.append(right.calls(left.serve({"nested": from_left})))
     with left.group:
         assert waits(left, call_right, 12) == 12
-

@@ -295,5 +295,3 @@ def test_subscriber_survives_malformed_publications(side: Open) -> None:
     wait_until(lambda: subscriber.count("taken", FRAMES).malformed == 5)
     side("p").publisher(FRAMES, record)("taken", 1, np.zeros(100_000, np.uint8))
     wait_until(lambda: received == [1])
-
-
