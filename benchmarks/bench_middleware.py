@@ -91,7 +91,7 @@ def between_processes() -> list[str]:
     found = [
         name
         for name, c in known.items()
-        if c and c.between_processes and c.services and c.topics and c.any_types
+        if c and c.between_processes and c.services and c.topics and not c.ros_types_only
     ]
     return sorted(found, key=lambda name: name != "zenoh")
 

@@ -27,7 +27,7 @@ class Capabilities:
     which subscribers count losses. `reports_source`: subscribers learn which port published a
     message. `qos`: the items of `QOS_ITEMS` that it honours. `max_message_bytes` 0: no limit.
     `valid_names`: a regular expression for names of components and ports, empty: any name.
-    `any_types`: it carries every interface; others refuse operations that their peers cannot have.
+    `ros_types_only`: it carries messages and services of ROS only, from `.msg` and `.srv` files.
     """
 
     between_processes: bool = True
@@ -42,7 +42,7 @@ class Capabilities:
     qos: frozenset[str] = frozenset()
     max_message_bytes: int = 0
     valid_names: str = ""
-    any_types: bool = True
+    ros_types_only: bool = False
 
 
 @dataclass(frozen=True, slots=True)

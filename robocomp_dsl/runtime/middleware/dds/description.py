@@ -14,7 +14,7 @@ MIDDLEWARE = MiddlewareDescription(
         attaches_subscribers=True,
         qos=frozenset({"reliable", "keep_all", "latched"}),
         valid_names=VALID_NAMES,
-        any_types=False,
+        ros_types_only=True,
     ),
     opener="robocomp_dsl.runtime.middleware.dds.transport:open_transport",
     requires=("cyclonedds",),
