@@ -222,3 +222,9 @@ except registry.UnknownMiddleware as error:
     assert "`broken` of robocomp-dsl-nowhere cannot be loaded: ModuleNotFoundError" in result.stdout
     assert "pip uninstall robocomp-dsl-nowhere" in result.stdout
     assert not result.stderr
+    (tmp_path / "c.cdsl").write_text(CLIENT.replace("requires Sum", "requires Sum(broken)"))
+    (tmp_path / "Sums.idsl").write_text(IDSL)
+    checked = rcgen("check", str(tmp_path / "c.cdsl"), "--format", "concise")
+    assert checked.returncode == 1
+    assert "RC214" in checked.stdout
+    assert "`broken` of robocomp-dsl-nowhere cannot be loaded: ModuleNotF" in checked.stdout

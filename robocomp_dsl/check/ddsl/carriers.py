@@ -28,8 +28,8 @@ from robocomp_dsl.source import Span
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.middleware.capabilities import Capabilities
 
-_TOPIC_ITEMS = ("keep_all", "latched", "liveliness_ms")
-_NAMES = {"keep_all": "keep all", "liveliness_ms": "liveliness"}
+_TOPIC_ITEMS = ("keep_all", "latched", "deadline_ms", "liveliness_ms")
+_NAMES = {"keep_all": "keep all", "deadline_ms": "deadline", "liveliness_ms": "liveliness"}
 
 
 class _Problem(ValueRecord):

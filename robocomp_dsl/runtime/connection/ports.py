@@ -31,7 +31,9 @@ class ComponentContext:
     when one of its threads dies. `addresses` are chosen by the user: of middleware and port;
     `transport_settings` by middleware and key. `unique_name`: opening fails with
     `MiddlewareError` if another process runs a component of this name in the domain; clients share
-    names. `parameters` are for the tools of middlewares that have parameters.
+    names. `call_hook(name, *arguments)` calls a hook of the user's class for an event of a
+    connection; None: there is no such class. `parameters` are for the tools of middlewares that
+    have parameters.
     """
 
     component: str
@@ -43,6 +45,7 @@ class ComponentContext:
     unique_name: bool = False
     addresses: Mapping[tuple[str, str], str] = field(default_factory=dict)
     transport_settings: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    call_hook: Callable[..., None] | None = None
     parameters: ShownParameters | None = None
 
 

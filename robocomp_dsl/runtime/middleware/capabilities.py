@@ -25,7 +25,9 @@ class Capabilities:
     `attaches_subscribers`: its publishers must be given each subscriber (`Publisher.attach`);
     others find their subscribers themselves. `sequence_numbers`: publications carry the number with
     which subscribers count losses. `reports_source`: subscribers learn which port published a
-    message. `qos`: the items of `QOS_ITEMS` that it honours. `max_message_bytes` 0: no limit.
+    message. `latches`: it passes latest messages to late subscribers itself; otherwise the
+    connection plane does it, between components. `qos`: the items of `QOS_ITEMS` that it honours.
+    `max_message_bytes` 0: no limit.
     `valid_names`: a regular expression for names of components and ports, empty: any name.
     `ros_types_only`: it carries messages and services of ROS only, from `.msg` and `.srv` files.
     """
@@ -39,6 +41,7 @@ class Capabilities:
     attaches_subscribers: bool = False
     sequence_numbers: bool = False
     reports_source: bool = False
+    latches: bool = False
     qos: frozenset[str] = frozenset()
     max_message_bytes: int = 0
     valid_names: str = ""

@@ -64,10 +64,10 @@ def test_topic_with_mutated_bytes_counts_malformed_messages(
         for _ in range(generator.randint(1, 4)):
             data[generator.randrange(len(data))] = generator.randrange(256)
         publisher.put(bytes(data[: generator.randint(0, len(data))]))
-    scans.clear()
-    wait_until(lambda: (publisher.put(valid), any(s == LaserScan(ranges=[1, 2]) for s in scans))[1])
+    publisher.put(SCAN.operations[0].encode_request((LaserScan(ranges=[4.0]),)))
+    wait_until(lambda: scans and scans[-1] == LaserScan(ranges=[4.0]))
     counts = component.counts("In", "scanned")
-    assert counts.malformed > 500
+    assert counts.malformed > 1000
     assert counts.failures == counts.malformed
     assert component.failures == []
 

@@ -10,7 +10,7 @@ MIDDLEWARE = MiddlewareDescription(
         external_peers=True,
         fixed_address=True,
         attaches_subscribers=True,
-        qos=frozenset({"reliable"}),
+        qos=frozenset({"reliable", "latched"}),
     ),
     opener="robocomp_dsl.runtime.middleware.ice.transport:open_transport",
     configuration="robocomp_dsl.runtime.middleware.ice.configuration:apply",
