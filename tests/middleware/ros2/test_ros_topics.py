@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import threading
 
 import numpy as np
 import pytest
@@ -70,6 +71,51 @@ def test_topic_that_is_latched_reaches_a_late_subscriber(ros_network: RosNetwork
     )
     wait_until(lambda: received)
     assert received == ["last"]
+
+
+def test_topic_that_keeps_all_loses_nothing_when_handlers_are_slow(
+    ros_network: RosNetwork,
+) -> None:
+    received: list[str] = []
+    entered, release = threading.Event(), threading.Event()
+
+    def block_once(text: String) -> None:
+        received.append(text.data)
+        entered.set()
+        release.wait()
+
+    keep_all = Qos(keep_all=True)
+    talker, listener = ros_network.component("talker"), ros_network.component("listener")
+    listener.subscribe(CHAT, block_once, "Chat", "talker.Chat", qos=keep_all)
+    publish, channel = talker.publisher(CHAT, "Chat", qos=keep_all)
+    wait_until(lambda: _is_heard(channel))
+    wait_until(lambda: (publish(String("start")), entered.is_set())[1])
+    numbers = [str(i) for i in range(300)]
+    for number in numbers:
+        publish(String(number))
+    release.set()
+    wait_until(lambda: received[-1] == numbers[-1])
+    assert [text for text in received if text != "start"] == numbers
+
+
+def test_topic_of_two_named_publishers_arrives_once_from_each(ros_network: RosNetwork) -> None:
+    received: list[str] = []
+    listener = ros_network.component("listener")
+    # The address of one of them is not the default: it publishes on a topic of the subscriber.
+    left = ros_network.component("left")
+    right = ros_network.component("right", Chat="/elsewhere")
+    listener.subscribe(CHAT, lambda m: received.append(m.data), "Chat", "left", "right")
+    channels = [c.publisher(CHAT, "Chat") for c in (left, right)]
+    for name, (publish, channel) in zip(("left", "right"), channels, strict=True):
+        wait_until(lambda channel=channel: _is_heard(channel))
+        wait_until(lambda name=name, publish=publish: (publish(String(name)), name in received)[1])
+    received.clear()
+    for number in range(5):
+        for name, (publish, _) in zip(("left", "right"), channels, strict=True):
+            publish(String(f"{name} {number}"))
+    wait_until(lambda: {"left 4", "right 4"} <= set(received))
+    later = [text for text in received if " " in text]
+    assert sorted(later) == sorted(f"{name} {i}" for name in ("left", "right") for i in range(5))
 
 
 def test_topic_is_refused_with_a_value_its_type_lacks(ros_network: RosNetwork) -> None:

@@ -12,6 +12,7 @@ MIDDLEWARE = MiddlewareDescription(
         external_peers=True,
         fixed_address=True,
         attaches_subscribers=True,
+        latches=True,
         qos=frozenset({"reliable", "keep_all", "latched"}),
         valid_names=VALID_NAMES,
         ros_types_only=True,

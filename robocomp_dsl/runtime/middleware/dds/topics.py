@@ -30,6 +30,7 @@ from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.receiver import QueueClosed
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection import endpoint
+from robocomp_dsl.runtime.connection.bounded_queue import KEEP_ALL_DEPTH
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 from robocomp_dsl.runtime.middleware.dds.idl_types import message_type
 from robocomp_dsl.runtime.middleware.dds.participant import Participant
@@ -47,7 +48,7 @@ _BATCH = 64
 
 def topic_qos(qos: endpoint.Qos) -> Any:
     """The quality of service of a reader or writer; reliable unless the user says otherwise."""
-    depth = qos.depth or DEFAULT_DEPTH
+    depth = qos.depth or (KEEP_ALL_DEPTH if qos.keep_all else DEFAULT_DEPTH)
     policies = [
         Policy.Reliability.BestEffort
         if qos.reliable is False

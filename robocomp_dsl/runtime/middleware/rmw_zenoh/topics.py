@@ -15,6 +15,8 @@ from typing import Any
 import zenoh
 import zenoh.ext
 
+from robocomp_dsl.runtime.connection import bounded_queue
+from robocomp_dsl.runtime.connection.bounded_queue import KEEP_ALL_DEPTH, BoundedQueue
 from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 from robocomp_dsl.runtime.errors import MalformedMessage
@@ -28,7 +30,6 @@ from robocomp_dsl.runtime.middleware.rmw_zenoh.wire import (
 )
 from robocomp_dsl.runtime.middleware.ros_common.payload import padded
 from robocomp_dsl.runtime.middleware.ros_common.topics import topics_address
-from robocomp_dsl.runtime.middleware.zenoh.reliable_queue import HOLD_S, ReliableQueue
 
 
 class RmwZenohWriter:
@@ -38,7 +39,7 @@ class RmwZenohWriter:
         self.info = info
         key = info.key(session.domain_id)
         control = zenoh.CongestionControl
-        congestion = control.BLOCK if qos.keep_all and qos.reliable is not False else control.DROP
+        congestion = control.BLOCK if qos.holds_publisher else control.DROP
         self._publisher: Any
         if qos.latched:
             self._publisher = zenoh.ext.declare_advanced_publisher(
@@ -79,11 +80,12 @@ class RmwZenohReceiver:
         qos = port.at.qos
         self.info = topic_info(name, port.interface, served.operation)
         handle = _sample_handler(served)
-        self._queue: ReliableQueue | None = None
-        handler: Any = zenoh.handlers.RingChannel(qos.depth or DEFAULT_DEPTH)
-        if qos.keep_all:
-            self._queue = ReliableQueue(qos.depth or DEFAULT_DEPTH, HOLD_S)
-            handler = zenoh.handlers.Callback(self._queue.put, indirect=False)
+        depth = qos.depth or (KEEP_ALL_DEPTH if qos.keep_all else DEFAULT_DEPTH)
+        self._queue: BoundedQueue[zenoh.Sample] | None = None
+        handler: Any = zenoh.handlers.RingChannel(depth)
+        if qos.holds_publisher:
+            self._queue = BoundedQueue(depth, bounded_queue.HOLD_S)
+            handler = zenoh.handlers.Callback(self._put, indirect=False)
         self._subscriber = self._declare(session, qos, handler)
         self._token, _ = session.announce("MS", self.info, qos)
         session.graph.watch(self.info, port.at.port)
@@ -102,6 +104,11 @@ class RmwZenohReceiver:
         return zenoh.ext.declare_advanced_subscriber(
             session.zenoh, key, handler, history=history, subscriber_detection=True
         )
+
+    def _put(self, sample: zenoh.Sample) -> None:
+        """Queue a sample; the numbers of the samples tell which were dropped."""
+        if self._queue:
+            self._queue.put(sample, len(sample.payload))
 
     def undeclare(self) -> None:
         """Receive no more."""

@@ -7,17 +7,21 @@ own: they publish there, too, when they are attached.
 
 from __future__ import annotations
 
+import re
+
 from robocomp_dsl.runtime.component.naming import ANY
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.ros_common.names import absolute_name
 
 _SEPARATOR = ","
+_NO_WORD = re.compile(r"[^A-Za-z0-9_]")
 
 
 def subscribed_topics(at: Endpoint, middleware: str) -> tuple[str, ...]:
     """The topics of a subscribed port, its own first. Raises `MiddlewareError`."""
-    # A component may publish a port of the same name.
-    names = [absolute_name(f"{at.component}/{at.port}/in", at.port)]
+    # A component may publish a port of the same name, and a port has a subscription for each peer.
+    part = "_".join(("in", *(_NO_WORD.sub("_", peer) for peer in at.peers)))
+    names = [absolute_name(f"{at.component}/{at.port}/{part}", at.port)]
     names += [
         absolute_name(record.address, at.port)
         for record in at.external
