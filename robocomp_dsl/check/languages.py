@@ -24,13 +24,8 @@ from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.regular_file import open_regular
 from robocomp_dsl.source import Source
-from robocomp_dsl.syntax.parse import (
-    LANGUAGES,
-    ROS_SUFFIXES,
-    parse_innermodel,
-    parse_ros,
-    parse_scxml,
-)
+from robocomp_dsl.syntax.parse import LANGUAGES, parse_innermodel, parse_ros, parse_scxml
+from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
 if TYPE_CHECKING:
     from robocomp_dsl.model.component import Component

@@ -81,14 +81,6 @@ def parse_scxml(source: Source, report: Report) -> ast_innermodel.File:
     return innermodel.parse_scxml(source, report)
 
 
-ROS_PARTS = {
-    ".msg": ("",),
-    ".srv": ("_Request", "_Response"),
-    ".action": ("_Goal", "_Result", "_Feedback"),
-}
-"""Suffixes of ROS definitions, and what their structs have behind the name of the file."""
-ROS_SUFFIXES = tuple(ROS_PARTS)
-
 LANGUAGES: Mapping[str, Callable[[Source, Report], AnyFile]] = {
     ".idsl": parse_idsl,
     ".cdsl": parse_cdsl,

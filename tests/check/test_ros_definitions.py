@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import builtins
+from importlib.metadata import PackageNotFoundError
 from pathlib import Path
 from typing import Any
 
@@ -152,7 +153,11 @@ def test_builtin_types_of_parser_and_model_agree() -> None:
 
 @pytest.fixture
 def without_rosbags(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """rosbags cannot be imported."""
+    """rosbags is not installed."""
+
+    def no_version(name: str) -> str:
+        raise PackageNotFoundError(name)
+
     imported = builtins.__import__
 
     def fail(name: str, *arguments: Any, **named: Any) -> Any:
@@ -161,6 +166,7 @@ def without_rosbags(monkeypatch: pytest.MonkeyPatch) -> Any:
         return imported(name, *arguments, **named)
 
     monkeypatch.setattr(builtins, "__import__", fail)
+    monkeypatch.setattr(ros_store, "version", no_version)
     ros_store._typestore.cache_clear()
     yield
     ros_store._typestore.cache_clear()

@@ -130,3 +130,29 @@ async def test_finding_of_edited_ros_definition(editor: Editor) -> None:
     editor.open("demo_msgs/msg/Reading.msg", READING + "uint8\n")
     found = await editor.until("demo_msgs/msg/Reading.msg", bool)
     assert [finding.code for finding in found] == ["RC121"]
+
+
+async def test_every_feature_answers_in_ros_definition(editor: Editor) -> None:
+    write_package(editor)
+    uri = editor.open("demo_msgs/msg/Reading.msg", READING)
+    document = lsp.TextDocumentIdentifier(uri)
+    client, top = editor.client, lsp.Range(lsp.Position(0, 0), lsp.Position(6, 0))
+    options = lsp.FormattingOptions(4, insert_spaces=True)
+    formatted = lsp.DocumentFormattingParams(document, options)
+    assert not await client.text_document_formatting_async(formatted)
+    assert await client.text_document_semantic_tokens_full_async(lsp.SemanticTokensParams(document))
+    await client.text_document_folding_range_async(lsp.FoldingRangeParams(document))
+    await client.text_document_code_lens_async(lsp.CodeLensParams(document))
+    await client.text_document_inlay_hint_async(lsp.InlayHintParams(document, top))
+    context = lsp.CodeActionContext([])
+    await client.text_document_code_action_async(lsp.CodeActionParams(document, top, context))
+    links = await client.text_document_document_link_async(lsp.DocumentLinkParams(document))
+    assert [link.range.start.line for link in links or ()] == [4]
+    for line in range(len(READING.splitlines())):
+        position = lsp.Position(line, 1)
+        await client.text_document_hover_async(lsp.HoverParams(document, position))
+        await client.text_document_completion_async(lsp.CompletionParams(document, position))
+        references = lsp.ReferenceContext(include_declaration=True)
+        await client.text_document_references_async(
+            lsp.ReferenceParams(references, document, position)
+        )

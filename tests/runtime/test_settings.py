@@ -70,3 +70,14 @@ def test_parse_peer_rejects_invalid_text(text: str) -> None:
 def test_parse_remaps_rejects_invalid_text(text: str) -> None:
     with pytest.raises(InvalidSetting):
         parse_remaps([text])
+
+
+def test_address_of_renamed_port_is_known_by_its_new_name() -> None:
+    settings = RunSettings(
+        remaps={"Laser": "front", "Speech": "voice"},
+        addresses={("ice", "Laser"): "tcp -p 1", ("ice", "Speech"): "tcp -p 2"},
+    )
+    assert settings.visible_addresses(["Laser"]) == {
+        ("ice", "front"): "tcp -p 1",
+        ("ice", "Speech"): "tcp -p 2",
+    }

@@ -16,7 +16,8 @@ from robocomp_dsl.diagnostics import Edit, Fix
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.source import Source, UnreadableSource
 from robocomp_dsl.syntax.ast.base import Import, QualifiedName
-from robocomp_dsl.syntax.parse import ROS_PARTS, parse_idsl
+from robocomp_dsl.syntax.parse import parse_idsl
+from robocomp_dsl.syntax.ros.kinds import ROS_PARTS
 
 ROS_PACKAGE = re.compile(r"[a-z][a-z0-9_]*")
 """The name of a ROS package; IDSL modules usually begin with a capital letter."""

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from robocomp_dsl.check.languages import CHECKS, TACTILE
-from robocomp_dsl.syntax.parse import ROS_SUFFIXES
+from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
 SKIPPED_FOLDERS = ("__pycache__", "build", "node_modules")
 """Folders without descriptions; hidden folders are skipped as well."""

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from robocomp_dsl.check.workspace.source_cache import SourceCache
 from robocomp_dsl.diagnostics import nearest
-from robocomp_dsl.syntax.parse import ROS_SUFFIXES
+from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
 VARIABLES = ("AMENT_PREFIX_PATH", "ROS_PACKAGE_PATH")
 """Environment variables of ROS 2 and ROS 1 with folders of packages."""

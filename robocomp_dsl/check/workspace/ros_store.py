@@ -11,7 +11,7 @@ import os
 import tempfile
 from contextlib import suppress
 from functools import cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
@@ -34,17 +34,21 @@ def names() -> list[str]:
 
 def definition(name: str, files: SourceCache) -> Path | None:
     """The path of a definition; None if there is none with this name."""
+    folder = _folder()
+    if folder is None:
+        return None
+    path = folder / name
+    if files.exists(path):  # copied before: no need to load rosbags
+        return path
     store = _typestore()
     message = name.removesuffix(".msg")
     if store is None or message not in store.fielddefs:
         return None
-    path = _folder() / name
+    text = _text(store, message)
+    with suppress(OSError):
+        _write(path, text)
     if not files.exists(path):
-        text = _text(store, message)
-        with suppress(OSError):
-            _write(path, text)
-        if not files.exists(path):
-            files.set_virtual(path, text)
+        files.set_virtual(path, text)
     return path
 
 
@@ -54,10 +58,15 @@ def _text(store: Any, message: str) -> str:
     return whole.partition("=" * 80)[0]
 
 
-def _folder() -> Path:
+def _folder() -> Path | None:
+    """The folder of the copies; None without rosbags."""
     from platformdirs import user_cache_path  # noqa: PLC0415 - on first use
 
-    return user_cache_path("robocomp_dsl") / f"rosbags-{version('rosbags')}" / DISTRIBUTION
+    try:
+        release = version("rosbags")
+    except PackageNotFoundError:
+        return None
+    return user_cache_path("robocomp_dsl") / f"rosbags-{release}" / DISTRIBUTION
 
 
 def _write(path: Path, text: str) -> None:

@@ -21,7 +21,7 @@ from robocomp_dsl.language_server.symbols.lookup import find_occurrences, occurr
 from robocomp_dsl.language_server.symbols.symbol import Occurrence, Symbol
 from robocomp_dsl.resources import INTERFACES
 from robocomp_dsl.syntax.grammar.tables import load
-from robocomp_dsl.syntax.parse import ROS_SUFFIXES
+from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _WORD = re.compile(r"[^\W\d][\w.:-]*")

@@ -21,7 +21,7 @@ from robocomp_dsl.language_server.symbols import (
 )
 from robocomp_dsl.language_server.symbols.symbol import Index, Occurrence
 from robocomp_dsl.source import Source
-from robocomp_dsl.syntax.parse import ROS_SUFFIXES
+from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
 Indexer = Callable[[Path, Workspace], tuple[Source, bool, Iterable[Occurrence]]]
 """Returns the source of a file, whether it has no syntax errors, and its occurrences."""

@@ -93,7 +93,7 @@ class Runner:
             settings.listen_port,
             fail=self.fail,
             unique_name=True,
-            addresses=settings.addresses,
+            addresses=settings.visible_addresses(p.name for p in self.spec.implements),
             transport_settings=settings.transport_settings,
             parameters=ShownParameters(params, self.callback_group),
             call_hook=self._call_hook,

@@ -93,6 +93,17 @@ class RunSettings:
         usual = (self.middleware,) if self.middleware else marked
         return tuple(dict.fromkeys((*(chosen or usual or (default,)), *external)))
 
+    def visible_addresses(self, served: Iterable[str]) -> dict[tuple[str, str], str]:
+        """The addresses of own ports by middleware and by the names that others see.
+
+        `served` are the ports that a remap renames.
+        """
+        names = {port: self.remaps.get(port, port) for port in served}
+        return {
+            (middleware, names.get(port, port)): address
+            for (middleware, port), address in self.addresses.items()
+        }
+
     def peers_of(self, port: str) -> tuple[str, ...]:
         """The peers that an outgoing port is connected to, by full names."""
         if self.connections.get(port) == (NOBODY,):

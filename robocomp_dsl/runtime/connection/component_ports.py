@@ -20,6 +20,7 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.connection.latched_messages import LatchedMessages
 from robocomp_dsl.runtime.connection.losses import LossCounter, LossCounters
+from robocomp_dsl.runtime.connection.peer_selection import matches
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.connection.qos_merge import connection_qos, sender_qos
 from robocomp_dsl.runtime.connection.qos_support import check_qos
@@ -124,7 +125,7 @@ class ComponentPorts:
         self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
     ) -> None:
         """See `Ports`."""
-        check_qos(at, "subscriber", self.subscribed_middlewares(at))
+        check_qos(at, "subscriber", self.middlewares(at))
         subscribed = SubscribedPort(self, at, handlers, execution)
         self.subscribed.append(subscribed)
         subscribed.update(at, is_start=True)
@@ -173,7 +174,7 @@ class ComponentPorts:
         """See `Ports`."""
         check_qos(at, "client", at.middlewares)
         registry_ = self.presence.registry
-        selector = ServerSelector(at, registry_, self._context.callback_group, _is_usable)
+        selector = ServerSelector(at, registry_, self._context.callback_group, self.is_usable)
         channel = ServiceChannel(self._context, registry_, selector, self._connect)
         self.channels.append(channel)
         return channel
@@ -181,6 +182,14 @@ class ComponentPorts:
     def _connect(self, at: Endpoint, server: PortRecord, timeout: float) -> ServiceClient:
         at = replace(at, qos=connection_qos(at, server.name), peer_qos=())
         return self.transport(server.middleware).connect(at, server, timeout)
+
+    @staticmethod
+    def is_usable(at: Endpoint, record: PortRecord) -> bool:
+        """Whether this port can be connected to a server or publisher."""
+        if at.middlewares and record.middleware not in at.middlewares:
+            return False
+        capabilities = registry.known_capabilities(record.middleware)
+        return capabilities is not None and _is_reachable(record, capabilities)
 
     def advertise(self, at: Endpoint) -> TopicChannel:
         """See `Ports`."""
@@ -214,14 +223,19 @@ class ComponentPorts:
         """The middlewares of a served or published port."""
         return at.middlewares or (self.presence.house,)
 
-    def subscribed_middlewares(self, at: Endpoint) -> Iterable[str]:
-        """Of a port that names none: those of the publishers that are known, or the house's."""
-        if at.middlewares:
-            return at.middlewares
-        found = self.presence.registry.find("publisher", at.interface.name)
-        used = [r.middleware for r in found if r.name in at.peers or r.component in at.peers]
-        usable = [name for name in used if registry.known_capabilities(name)]
-        return dict.fromkeys(usable or (self.presence.house,))
+    def middlewares_of_subscribers(self, at: Endpoint) -> tuple[str, ...]:
+        """The house's and those of the subscribers to `at` that are known now."""
+        found = self.presence.registry.find("subscriber", at.interface.name)
+        peers = (
+            (record, Endpoint(at.interface, record.component, record.port, record.peers))
+            for record in found
+        )
+        used = [
+            record.middleware
+            for record, peer in peers
+            if matches(peer, at.component, at.port) and self.is_usable(at, record)
+        ]
+        return tuple(dict.fromkeys((self.presence.house, *used)))
 
     def declare(self, role: str, at: Endpoint, middleware: str, address: str) -> PortRecord:
         """Make a port known; after it was opened, so that it can be used when it is seen."""
@@ -279,14 +293,6 @@ class ComponentPorts:
         for transport in transports.values():
             transport.close()
         self.presence.close()
-
-
-def _is_usable(at: Endpoint, record: PortRecord) -> bool:
-    """Whether this port can be connected to a server."""
-    if at.middlewares and record.middleware not in at.middlewares:
-        return False
-    capabilities = registry.known_capabilities(record.middleware)
-    return capabilities is not None and _is_reachable(record, capabilities)
 
 
 def _is_reachable(record: PortRecord, capabilities: Capabilities) -> bool:

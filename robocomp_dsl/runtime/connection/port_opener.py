@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Protocol
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
@@ -39,10 +39,7 @@ class PortOpener(Protocol):
         """A port has been closed while the component runs."""
 
     def middlewares(self, at: Endpoint) -> tuple[str, ...]:
-        """The middlewares of a served or published port."""
-
-    def subscribed_middlewares(self, at: Endpoint) -> Iterable[str]:
-        """The middlewares of a subscribed port."""
+        """The middlewares of a served, published or subscribed port."""
 
     def declare(self, role: str, at: Endpoint, middleware: str, address: str) -> PortRecord:
         """Make a port known."""

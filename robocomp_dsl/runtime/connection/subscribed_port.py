@@ -62,7 +62,7 @@ class SubscribedPort:
         """
         parts = {
             (middleware, part.peers): part
-            for middleware in self._ports.subscribed_middlewares(at)
+            for middleware in self._ports.middlewares(at)
             for part in split(at)
         }
         for key, former in list(self._open.items()):

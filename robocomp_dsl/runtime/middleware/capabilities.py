@@ -56,7 +56,8 @@ class MiddlewareDescription:
     `TransportContext` to a `Transport`. `requires` are importable modules without which it cannot
     be opened, and `install` tells how to install them. `configuration` is a function, as
     `module:function`, that adds the connections of RoboComp's configuration keys to the settings of
-    a component; see `middleware.configured`.
+    a component; see `middleware.configured`. `tcp_ports` is a function, as `module:function`, from
+    the address of an own port to the TCP ports of this machine where it listens.
     """
 
     name: str
@@ -66,3 +67,4 @@ class MiddlewareDescription:
     requires: tuple[str, ...] = ()
     install: str = ""
     configuration: str = ""
+    tcp_ports: str = ""

@@ -16,7 +16,7 @@ from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax.ast import idsl as ast
 from robocomp_dsl.syntax.ast.base import Import, Name, QualifiedName, Text, Unit
 from robocomp_dsl.syntax.codes import ros as codes
-from robocomp_dsl.syntax.parse import ROS_PARTS
+from robocomp_dsl.syntax.ros.kinds import ROS_PARTS
 from robocomp_dsl.syntax.ros.lines import DefinitionLine, Section, read_sections
 from robocomp_dsl.syntax.ros.values import parse_items, parse_value
 
@@ -29,7 +29,8 @@ MAX_LENGTH = 1_000_000
 
 _STATEMENT = re.compile(
     r"(?P<type>[A-Za-z_][\w/]*)(?:<=(?P<text>\d+))?(?P<array>\[(?P<most><=)?(?P<length>\d*)\])?"
-    r"\s+(?P<name>[A-Za-z]\w*)\s*(?P<rest>.*)"
+    r"\s+(?P<name>[A-Za-z]\w*)\s*(?P<rest>.*)",
+    re.ASCII,
 )
 _REFERENCE = re.compile(r"(?:([A-Za-z]\w*)/(?:msg/)?)?([A-Za-z]\w*)")
 _ROS1 = {
@@ -138,7 +139,7 @@ class _Builder:
                 self._add(span, f"the constant `{name.text}` has no value")
                 return None
             return ast.Constant(span, type_, name, literal, statement.doc)
-        array = self._array(span, found)
+        array, string_bound = self._array(span, found), self._string_bound(span, found)
         items = parse_items(rest, type_.text) if array else ()
         if items is None:
             self._add(rest, "the default of an array is a list, such as `[1, 2]`")
@@ -152,7 +153,7 @@ class _Builder:
             unit,
             doc,
             array,
-            int(found["text"] or 0),
+            string_bound,
             items or (),
         )
 
@@ -185,14 +186,29 @@ class _Builder:
         self._imports.setdefault(path, Import(span, Text(span, path)))
         return QualifiedName(span, Name(span, name), Name(span, package))
 
+    def _string_bound(self, span: Span, found: re.Match[str]) -> int:
+        if not found["text"]:
+            return 0
+        length = self._length(self._part(span, found, "text"), "a string")
+        if found["type"] != "string":
+            self._add(span, f"only a `string` can have a bound before its name, not `{found[1]}`")
+            return 0
+        return length
+
+    def _length(self, span: Span, what: str) -> int:
+        """A length that is written in digits; 0 if it is out of range."""
+        length = int(span.text) if 0 < len(span.text) <= len(str(MAX_LENGTH)) else 0
+        if not 1 <= length <= MAX_LENGTH:
+            self._add(span, f"the length of {what} is 1 to {MAX_LENGTH}")
+            return 0
+        return length
+
     def _array(self, span: Span, found: re.Match[str]) -> ast.Array | None:
         if not found["array"]:
             return None
         brackets = self._part(span, found, "array")
-        length = int(found["length"] or 0)
-        if (found["length"] or found["most"]) and not 1 <= length <= MAX_LENGTH:
-            self._add(brackets, f"the length of an array is 1 to {MAX_LENGTH}")
-            return ast.Array(brackets)
+        is_limited = found["length"] or found["most"]
+        length = self._length(self._part(span, found, "length"), "an array") if is_limited else 0
         if found["most"]:
             return ast.Array(brackets, bound=length)
         return ast.Array(brackets, size=length)

@@ -15,6 +15,7 @@ _INTEGER = re.compile(r"[+-]?(?:0[xX][0-9a-fA-F]+|0[bB][01]+|0[oO][0-7]+|[0-9]+)
 _FLOAT = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _ESCAPE = re.compile(r"\\(.)")
 _ITEM = re.compile(r"""\s*("(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'|[^,]*)\s*(?:,|$)""")
+_MAX_DIGITS = 100
 _BOOLS = {"true": True, "false": False}
 _NUMERIC_BOOLS = {"1": True, "0": False}
 
@@ -30,7 +31,7 @@ def parse_value(span: Span, type_: str) -> Literal | None:
     bools = _BOOLS | _NUMERIC_BOOLS if type_ == "bool" else _BOOLS
     if text.lower() in bools:
         return Bool(span, bools[text.lower()])
-    if _INTEGER.fullmatch(text):
+    if _INTEGER.fullmatch(text) and len(text) <= _MAX_DIGITS:
         prefixed = text.lstrip("+-")[:2].lower() in ("0x", "0b", "0o")
         return Number(span, int(text, 0) if prefixed else int(text))
     if _FLOAT.fullmatch(text):

@@ -20,7 +20,7 @@ from robocomp_dsl.runtime.errors import (
     RemoteError,
     Timeout,
 )
-from tests.middleware.ice.conftest import IceComponent
+from tests.middleware.ice.ice_component import IceComponent
 from tests.middleware.ice.peers import Ice, PlainProgram, free_port
 from tests.support.waiting import wait_until
 

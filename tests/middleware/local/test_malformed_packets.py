@@ -10,6 +10,7 @@ import threading
 from array import array
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -68,9 +69,11 @@ def is_closed(opened: socket.socket) -> bool:
 
 def send(opened: socket.socket, packet: bytes, *descriptors: int) -> None:
     rights = (socket.SOL_SOCKET, socket.SCM_RIGHTS, array("i", descriptors))
-    opened.sendmsg([packet], [rights] if descriptors else [])
-    for descriptor in descriptors:
-        os.close(descriptor)
+    try:
+        opened.sendmsg([packet], [rights] if descriptors else [])
+    finally:
+        for descriptor in descriptors:
+            os.close(descriptor)
 
 
 GREETINGS = {
@@ -91,8 +94,8 @@ def test_listener_closes_connections_of_other_protocols(
         opened = connected(server[1], greet=False)
         opened.send(GREETINGS[greeting])
         assert is_closed(opened)
-        wait_until(lambda: server[0].transport._listener.rejected == 1)
-    assert "rejected a" in caplog.text
+        wait_until(lambda: "rejected a" in caplog.text)
+    assert server[0].transport._listener.rejected == 1
 
 
 def test_listener_refuses_a_port_of_another_kind(server: tuple[Side, PortRecord]) -> None:
@@ -199,7 +202,7 @@ def test_client_survives_malformed_replies(side: Open, folder: object) -> None:
             with pytest.raises(MiddlewareError):
                 client.calls(record)("add", 1, 2)
         thread.join()
-    os.unlink(path)
+    Path(path).unlink()
     assert open_descriptors() <= before
 
 
@@ -276,8 +279,8 @@ def test_server_survives_many_mutated_packets(server: tuple[Side, PortRecord], s
 
 
 def resident_bytes() -> int:
-    with open("/proc/self/statm") as file:
-        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE")
 
 
 def test_subscriber_survives_malformed_publications(side: Open) -> None:

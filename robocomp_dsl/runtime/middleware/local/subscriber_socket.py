@@ -16,19 +16,17 @@ import threading
 import time
 from collections import deque
 from struct import Struct
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.local import packets
+from robocomp_dsl.runtime.middleware.local.flusher import Flusher
 from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket, MappedFiles
 from robocomp_dsl.runtime.middleware.local.memory_pool import SharedMessage
 from robocomp_dsl.runtime.middleware.local.ports import hello_packet, parse_address
 from robocomp_dsl.runtime.presence.port_record import PortRecord
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.middleware.local.flusher import Flusher
 
 HOLD_S = 1.0
 """How long a reliable subscriber that takes nothing may hold a publication."""
@@ -47,7 +45,7 @@ log = logging.getLogger("robocomp")
 _Entry: TypeAlias = "tuple[bytes, SharedMessage | None, OperationCounts]"
 
 
-class SubscriberLink:
+class SubscriberSocket:
     """Never blocks, unless the publisher is reliable. `lost`: the subscriber has ended."""
 
     def __init__(self, at: Endpoint, subscriber: PortRecord, flusher: Flusher) -> None:
