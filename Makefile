@@ -54,11 +54,13 @@ test-tools: $(READY)
 test-editors: test-tools
 	$(BIN)/python -m pytest -q -m editors tests/editors
 
-# Programs written with ZeroC Ice call components, and are called by them.
+# Programs of other projects call components, and are called by them: ZeroC Ice, ROS 2, DDS.
 test-peers: $(READY)
 	tests/middleware/install-peers.sh $(CURDIR)/$(BIN)/python
-	$(BIN)/python -m pytest -q -n $(WORKERS) -m peers tests/middleware
+	$(BIN)/python -m pytest -q -n $(WORKERS) -m peers tests/middleware --ignore tests/middleware/ros2
 	$(BIN)/python -m pytest -q -n $(WORKERS) tests/middleware/conformance --middleware ice
+	tests/middleware/ros2/install-peers.sh $(PYTHON) build/peers-venv
+	build/peers-venv/bin/python -m pytest -q -m peers tests/middleware/ros2
 
 vsix:
 	cd editors/vscode && npm ci --no-audit --no-fund && npm run --silent package

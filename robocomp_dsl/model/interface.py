@@ -62,6 +62,14 @@ class Operation(Record):
         is_service = "/srv/" in name and names == [f"{name}_Request", f"{name}_Response"]
         return name if is_service else ""
 
+    @property
+    def ros_topic(self) -> str:
+        """`std_msgs/msg/String` if its only parameter is that ROS message, or ""."""
+        if len(self.inputs) != 1 or self.result or self.outputs or self.throws:
+            return ""
+        type_ = self.inputs[0].type
+        return type_.ros_name if isinstance(type_, Struct) else ""
+
     def as_topic(self) -> Pattern:
         """The pattern if the interface is published or subscribed to."""
         return Pattern.PUBLISH if self.pattern is Pattern.UNMARKED else self.pattern

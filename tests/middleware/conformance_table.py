@@ -25,6 +25,7 @@ CAPABILITIES = {
     "topics": "topics (`publishes`, `subscribesTo`)",
     "external_peers": "programs that are no components (`extern`)",
     "fixed_address": "address of an own port (`at`)",
+    "ros_types_only": "only types that are imported from ROS",
     "sequence_numbers": "numbers of publications: losses in the network are counted",
 }
 _HEAD = """\
@@ -82,7 +83,11 @@ def conformance(results: Results) -> str:
         [feature, *(_cell(results[name].get(feature)) for name in names)] for feature in features
     ]
     text = "Passed cases; a dash: the capabilities exclude all cases of the row."
-    missing = [each.name for each in described() if each.name not in results]
+    absent = [each for each in described() if each.name not in results]
+    ros = [f"`{each.name}`" for each in absent if each.capabilities.ros_types_only]
+    missing = [each.name for each in absent if not each.capabilities.ros_types_only]
+    if ros:
+        text += f" {', '.join(ros)}: [tests of their own](../how-to/ros2.md), with types of ROS."
     if missing:
         text += f" Not installed in this run: {', '.join(missing)}."
     return f"## Conformance\n\n{_wrap(text)}\n{_table(['', *names], rows)}{_reasons(results)}"

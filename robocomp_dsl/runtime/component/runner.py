@@ -29,6 +29,7 @@ from robocomp_dsl.runtime.component.lifecycle import (
 )
 from robocomp_dsl.runtime.component.sd_notify import SystemdNotifier
 from robocomp_dsl.runtime.component.settings import RunSettings
+from robocomp_dsl.runtime.component.shown_parameters import ShownParameters
 from robocomp_dsl.runtime.component.spec import CalledPort, ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.supervisor_pipe import SupervisorPipe
@@ -94,6 +95,7 @@ class Runner:
             unique_name=True,
             addresses=settings.visible_addresses(p.name for p in self.spec.implements),
             transport_settings=settings.transport_settings,
+            parameters=ShownParameters(params, self.callback_group),
             call_hook=self._call_hook,
         )
         self.ports = open_ports(

@@ -107,6 +107,7 @@ class ComponentPorts:
             {port: at for (of, port), at in context.addresses.items() if of == name},
             {key: value for (of, key), value in context.transport_settings.items() if of == name},
             self.presence,
+            context.parameters,
         )
 
     def serve(

@@ -35,7 +35,8 @@ def matches(at: Endpoint, component: str, port: str) -> bool:
         return False
     if component in wired:
         return True
-    return (not wired or f"{ANY}.{port}" in wired) and on_same_branch(at.component, component)
+    any_peer = not wired and not at.external
+    return (any_peer or f"{ANY}.{port}" in wired) and on_same_branch(at.component, component)
 
 
 def eligible_servers(at: Endpoint, found: Sequence[_T], name: Callable[[_T], str]) -> list[_T]:

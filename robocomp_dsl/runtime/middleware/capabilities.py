@@ -29,6 +29,7 @@ class Capabilities:
     connection plane does it, between components. `qos`: the items of `QOS_ITEMS` that it honours.
     `max_message_bytes` 0: no limit.
     `valid_names`: a regular expression for names of components and ports, empty: any name.
+    `ros_types_only`: it carries messages and services of ROS only, from `.msg` and `.srv` files.
     """
 
     between_processes: bool = True
@@ -44,6 +45,7 @@ class Capabilities:
     qos: frozenset[str] = frozenset()
     max_message_bytes: int = 0
     valid_names: str = ""
+    ros_types_only: bool = False
 
 
 @dataclass(frozen=True, slots=True)
