@@ -21,7 +21,7 @@ from typing import Protocol
 from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.component.user_errors import describe_error
 from robocomp_dsl.runtime.middleware.local import packets
-from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket, MappedFiles
+from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket
 from robocomp_dsl.runtime.middleware.local.ports import Hello, make_address, parse_hello
 from robocomp_dsl.runtime.middleware.local.socket_file import SocketFile
 
@@ -130,7 +130,7 @@ class Listener:
     def _greet(self, accepted: socket.socket) -> None:
         """Read the first packet of a connection, and pass it to its port."""
         try:
-            hello = parse_hello(packets.receive(accepted, MappedFiles(), socket.MSG_DONTWAIT))
+            hello = parse_hello(packets.receive_plain(accepted))
             port = self._ports.get(hello.port)
             if port is None:
                 accepted.close()  # the port was closed: the peer sees that it is lost
