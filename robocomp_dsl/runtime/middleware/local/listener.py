@@ -48,7 +48,7 @@ class AcceptingPort(Protocol):
 class Listener:
     """The socket of a component and its thread, started with the first port."""
 
-    def __init__(self, folder: Callable[[], Path], fail: Callable[[str], None]) -> None:
+    def __init__(self, folder: Path, fail: Callable[[str], None]) -> None:
         self._folder = folder
         self._fail = fail
         self._file: SocketFile | None = None
@@ -65,7 +65,7 @@ class Listener:
         """Accept connections for a port; returns its address. Raises `MiddlewareError`."""
         with self._lock:
             if self._file is None:
-                self._file = SocketFile(self._folder())
+                self._file = SocketFile(self._folder)
                 self._thread = threading.Thread(target=self._run, name="local", daemon=True)
                 self._thread.start()
             self._number += 1
