@@ -78,7 +78,7 @@ class ReceivingPort:
             self._connections.add(connection)
         take = connection.take
         qos = self.port.at.qos
-        if self.kind == packets.PUBLICATION and qos.depth and not qos.reliable:
+        if self.kind == packets.PUBLICATION and qos.depth and not qos.holds_publisher:
             take = connection.take_latest
         self.port.receive(take, connection.handle)
 

@@ -51,7 +51,7 @@ class SubscriberSocket:
         self.lost = False
         self._subscriber = subscriber.name
         self._flusher = flusher
-        self._reliable = bool(at.qos.reliable)
+        self._reliable = at.qos.holds_publisher
         self._path, port = parse_address(subscriber.address)
         self._hello = hello_packet(at, port, packets.PUBLICATION)
         self._lock = threading.Lock()
