@@ -157,8 +157,12 @@ def test_descriptors_of_strangers_are_closed(server: tuple[Side, PortRecord]) ->
     shared = ADD[:1] + b"\1" + ADD[2:] + packets.SIZE.pack(100)
     for packet, count in ((ADD + REQUEST, 1), (ADD + REQUEST, 5), (shared, 1), (shared, 2)):
         opened = connected(server[1])
+        opened.send(packets.ANNOUNCEMENT)
         send(opened, packet, *(null() for _ in range(count)))
         assert is_closed(opened)
+    with connected(server[1]) as opened:  # without an announcement they are discarded
+        send(opened, ADD + REQUEST, null(), null())
+        assert opened.recv(100)[0] == packets.RESULT
     silent = connected(server[1], greet=False)
     send(silent, GREETINGS["text"], null())
     assert is_closed(silent)
@@ -239,6 +243,7 @@ def send_mutations(record: PortRecord, originals: list[bytes], count: int, seed:
                 message = pool.message((body,), len(body))
                 size = rng.choice((len(body), rng.randrange(1 << 40)))
                 head = ADD[:1] + b"\1" + ADD[2:] + packets.SIZE.pack(size)
+                opened.send(packets.ANNOUNCEMENT * rng.choice((1, 1, 1, 2)))
                 send(opened, head, os.dup(message.descriptor))
             else:
                 opened.send(packet)
@@ -290,7 +295,7 @@ def test_subscriber_survives_malformed_publications(side: Open) -> None:
     path, port = ports.parse_address(record.address)
     at = Endpoint(FRAMES, "p", "Frames")
     head = ports.head_of(packets.PUBLICATION, FRAMES, FRAMES.operations[0])
-    for packet in (head, head + bytes(15), ADD + REQUEST, b"\0", head + bytes(16) + b"xyz"):
+    for packet in (head, head + bytes(15), ADD + REQUEST, b"\2", head + bytes(16) + b"xyz"):
         with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as opened:
             opened.connect(path)
             opened.send(ports.hello_packet(at, port, packets.PUBLICATION))

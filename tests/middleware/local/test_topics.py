@@ -261,3 +261,16 @@ def test_connections_that_have_ended_leave_nothing(side: Open) -> None:
     wait_until(lambda: len(received) == 30)
     wait_until(lambda: open_descriptors() <= before + 1)
     wait_until(lambda: threading.active_count() <= threads)
+
+
+def test_publications_of_a_publisher_that_closes_at_once_arrive(side: Open) -> None:
+    received: list[int] = []
+    record = side("s").subscribe({"taken": lambda n, _pixels: received.append(n)}, FRAMES)
+    publisher = side("p")
+    for number in range(0, 40, 2):
+        publish = publisher.publisher(FRAMES, record)
+        publish("taken", number, PIXELS)
+        publish("taken", number + 1, PIXELS[:9])
+        publish.publisher.close()
+    wait_until(lambda: len(received) == 40)
+    assert sorted(received) == list(range(40))

@@ -81,14 +81,18 @@ class LocalClient:
         head = head_of(packets.QUERY, self._at.interface, operation)
         result = head_of(packets.RESULT, self._at.interface, operation)
         of_thread = self._of_thread
-        receive, send = packets.receive, packets.send
+        receive = packets.receive
         decode: Callable[[Any], Any] = operation.decode_reply
 
         def query(message: Message) -> Any:
             body: Body
             connection = getattr(of_thread, "connection", None) or self._open(operation)
             try:
-                counts.bytes_out += send(connection.socket, head, message)
+                if isinstance(message, bytes):
+                    connection.socket.send(head + message)
+                    counts.bytes_out += len(message)
+                else:
+                    counts.bytes_out += packets.send(connection.socket, head, message)
                 connection.wait_briefly()
                 reply = receive(connection.socket, connection.files)
                 if isinstance(reply, bytes):

@@ -40,8 +40,6 @@ class Flusher:
 
     def add(self, link: QueuedLink) -> None:
         """Flush a link until its queue is empty."""
-        if link in self._links:
-            return
         with self._changed:
             self._links.add(link)
             self._changed.notify()
@@ -76,6 +74,6 @@ class Flusher:
                 links = list(self._links)
             moved = [link.flush() for link in links]
             with self._changed:
-                # Under its own lock, `put` adds a link again after a queue was empty.
+                # A link adds itself after a packet was queued: it stays, or it is added again.
                 self._links -= {link for link in links if not link.has_queue}
             period = SHORTEST_S if any(moved) else min(2 * period, LONGEST_S)

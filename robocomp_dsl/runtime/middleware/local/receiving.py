@@ -78,7 +78,7 @@ class ReceivingPort:
             self._connections.add(connection)
         take = connection.take
         qos = self.port.at.qos
-        if self.kind == packets.PUBLICATION and qos.depth and not qos.reliable:
+        if self.kind == packets.PUBLICATION and qos.depth and not qos.holds_publisher:
             take = connection.take_latest
         self.port.receive(take, connection.handle)
 
@@ -247,6 +247,8 @@ class _Connection:
 
     def handle(self, packet: Received) -> None:
         """Pass a packet to the handler of its operation."""
+        if self._port.closed:
+            return
         size = self._start_size
         body: Body
         if isinstance(packet, bytes):
@@ -258,7 +260,7 @@ class _Connection:
             self._port.malformed(MalformedPacket("no packet of an operation"), self._sender)
             with contextlib.suppress(OSError):
                 self.socket.shutdown(socket.SHUT_RDWR)
-        elif not self._port.closed:
+        else:
             handler(self.socket, start, body)
 
     def _end(self) -> None:
