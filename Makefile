@@ -14,7 +14,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # Processes started by tests use the commands of this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: campaign test-wheel test-tools test-peers fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
+.PHONY: campaign conformance test-wheel test-tools test-peers fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
 
 demo: $(READY)
 	$(BIN)/python components/touch_demo/demo.py $(ARGS)
@@ -54,10 +54,13 @@ test-tools: $(READY)
 test-editors: test-tools
 	$(BIN)/python -m pytest -q -m editors tests/editors
 
-# Programs written with ZeroC Ice call components, and are called by them.
+# Programs of other projects call components, and are called by them: ZeroC Ice, ROS 2, DDS.
 test-peers: $(READY)
 	tests/middleware/install-peers.sh $(CURDIR)/$(BIN)/python
-	$(BIN)/python -m pytest -q -n $(WORKERS) -m peers tests/middleware
+	$(BIN)/python -m pytest -q -n $(WORKERS) -m peers tests/middleware --ignore tests/middleware/ros2
+	$(BIN)/python -m pytest -q -n $(WORKERS) tests/middleware/conformance --middleware ice
+	tests/middleware/ros2/install-peers.sh $(PYTHON) build/peers-venv
+	build/peers-venv/bin/python -m pytest -q -m peers tests/middleware/ros2
 
 vsix:
 	cd editors/vscode && npm ci --no-audit --no-fund && npm run --silent package
@@ -77,6 +80,11 @@ docs: $(READY)
 	$(BIN)/pip install -q --disable-pip-version-check -e '.[docs]'
 	rm -rf build/docs
 	$(BIN)/python -m docs.build_site build/docs
+
+# Test all middlewares that are installed, and write the table of the documentation.
+conformance: $(READY)
+	$(BIN)/python -m pytest -q -n $(WORKERS) tests/middleware/conformance --conformance-report build/conformance.json
+	$(BIN)/python -m tests.middleware.conformance_table build/conformance.json
 
 bench: $(READY)
 	$(BIN)/python -m benchmarks $(ONLY)

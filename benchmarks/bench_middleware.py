@@ -88,7 +88,11 @@ def between_processes() -> list[str]:
     for name, capabilities in known.items():
         if capabilities is None:
             print(f"   {name} is not installed: skipped")
-    found = [n for n, c in known.items() if c and c.between_processes and c.services and c.topics]
+    found = [
+        name
+        for name, c in known.items()
+        if c and c.between_processes and c.services and c.topics and not c.ros_types_only
+    ]
     return sorted(found, key=lambda name: name != "zenoh")
 
 

@@ -26,9 +26,10 @@ from robocomp_dsl.model.types import Declaration
 
 @dataclass(slots=True)
 class Version:
-    """The models of one version, by name."""
+    """The models of one version, by name. `ros` are the structs of imported ROS definitions."""
 
     declarations: dict[str, Declaration] = field(default_factory=dict)
+    ros: dict[str, Declaration] = field(default_factory=dict)
     components: dict[str, Component] = field(default_factory=dict)
     parameters: dict[str, ParameterSet] = field(default_factory=dict)
 
@@ -44,12 +45,21 @@ class Version:
                     self.add(module)
             case Module():
                 self.declarations |= {d.qualified: d for d in model.declarations}
+                definitions = (m for m in model.closure() if m.is_ros and m is not model)
+                self.ros |= {d.qualified: d for m in definitions for d in m.declarations}
 
 
 def compare(old: Version, new: Version, deployments: Iterable[Deployment], report: Report) -> None:
     """Report all breaking changes; `deployments` are the current ones that may be affected."""
     changes = Changes(report)
-    compare_declarations(old.declarations, new.declarations, Users(deployments), report)
+    # A definition that is no longer imported matters only to operations, which are compared.
+    ros = old.ros.keys() & new.ros.keys()
+    compare_declarations(
+        old.declarations | {name: old.ros[name] for name in ros},
+        new.declarations | {name: new.ros[name] for name in ros},
+        Users(deployments),
+        report,
+    )
     compare_components(old.components, new.components, changes)
     compare_of_components(old.components, new.components, changes)
     # The parameter sets of components in both versions are already compared.

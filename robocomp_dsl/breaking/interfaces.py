@@ -101,8 +101,9 @@ def _field(was: Field, now: Field, what: str, changes: Changes) -> None:
         message = f"{what} was {type_name(was.type)}, now {type_name(now.type)}"
         changes.add(codes.WIRE, was, now, message)
     _unit(was, now, what, changes)
-    if was.default != now.default:
-        message = f"the default of {what} was {_shown(was.default)}, now {_shown(now.default)}"
+    if (was.default, was.items) != (now.default, now.items):
+        old, new = was.items or was.default, now.items or now.default
+        message = f"the default of {what} was {_shown(old)}, now {_shown(new)}"
         changes.add(codes.BEHAVIOUR, was, now, message)
 
 

@@ -6,6 +6,7 @@ file itself, and the errors of the files that it references.
 
     language    parsing           name resolution          rules                  entry point
     IDSL        parse_idsl        idsl/resolve             idsl/rules             ModuleLoader.load
+    ROS         parse_ros         as IDSL                  as IDSL                ModuleLoader.load
     CDSL        parse_cdsl        cdsl/resolve             cdsl/rules             check_cdsl
     PDSL        parse_pdsl        pdsl/resolve             pdsl/rules             check_pdsl
     DDSL        parse_ddsl        ddsl/resolve             in the parts below     check_ddsl

@@ -35,13 +35,13 @@ def as_bool(literal: Literal) -> bool:
     raise TypeMismatch(f"{_describe(literal)}, but a `bool` is `true` or `false`")
 
 
-def as_int(literal: Literal, bits: int = 64) -> int:
-    """A whole number that fits into a signed integer of `bits` bits; a byte is 0 to 255."""
+def as_int(literal: Literal, bits: int = 64, *, unsigned: bool = False) -> int:
+    """A whole number that fits into an integer of `bits` bits."""
     if not isinstance(literal, Number):
         raise TypeMismatch(f"{_describe(literal)}, not a whole number")
     if isinstance(literal.value, float) and not literal.value.is_integer():
         raise TypeMismatch(f"`{literal.span.text}` is not an integer")
-    low, high = (0, 255) if bits == 8 else (-(1 << (bits - 1)), (1 << (bits - 1)) - 1)
+    low, high = (0, (1 << bits) - 1) if unsigned else (-(1 << (bits - 1)), (1 << (bits - 1)) - 1)
     if not low <= literal.value <= high:
         raise OutOfRange(f"`{literal.span.text}` is outside {low} to {high}")
     return int(literal.value)
@@ -68,6 +68,14 @@ def as_string(literal: Literal) -> str:
     raise TypeMismatch(f"{_describe(literal)}, not a string in quotes", replacement=f'"{written}"')
 
 
+def _as_bounded_string(literal: Literal, bound: int) -> str:
+    """A string in quotes of at most `bound` bytes of UTF-8, if that is not 0."""
+    text = as_string(literal)
+    if bound and len(text.encode()) > bound:
+        raise OutOfRange(f"`{literal.span.text}` is longer than {bound} bytes")
+    return text
+
+
 def as_choice(literal: Literal, among: Sequence[str]) -> str:
     """One of the names `among`; quotes and `Enumeration::name` are accepted."""
     if isinstance(literal, (Name, Text)):
@@ -88,10 +96,10 @@ def as_type(literal: Literal, type_: types.Type) -> types.Literal:
             return as_bool(literal)
         case types.FLOAT | types.DOUBLE:
             return as_float(literal)
-        case types.STRING:
-            return as_string(literal)
+        case types.Primitive() if type_.is_text:
+            return _as_bounded_string(literal, type_.bound)
         case types.Primitive():
-            return as_int(literal, type_.bits)
+            return as_int(literal, type_.bits, unsigned=type_.is_unsigned)
         case types.Enum():
             return as_choice(literal, [enumerator.name for enumerator in type_.enumerators])
     raise TypeMismatch(f"a `{type_.name}` cannot have a default; it starts empty")

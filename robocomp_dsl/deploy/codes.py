@@ -59,7 +59,7 @@ PORT_TAKEN = Code(
     """\
 `port N` makes a component listen on a fixed TCP port of this machine. Another process already
 listens there: an earlier run, or another component of the deployment. Without `port` the component
-uses any free port.
+uses any free port. The same holds for `port Laser over ice at "tcp -p N"`.
 """,
 )
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from robocomp_dsl.deploy.qos_text import format_qos, merge_qos
+from robocomp_dsl.deploy.qos_text import format_qos
 from robocomp_dsl.model.component import Port, Role
 from robocomp_dsl.model.deployment import Connection, Deployment, External, Instance, Monitor, Qos
 from robocomp_dsl.model.port_middlewares import port_middlewares
@@ -91,15 +91,14 @@ def _peer_argument(instance: Instance, peer: Instance, port: Port) -> str:
 
 
 def _qos_flags(port: str, requested: Sequence[tuple[str, Qos]]) -> Iterator[str]:
-    """The quality of service of a port, and of each connection if they differ."""
-    merged = merge_qos(qos for _, qos in requested)
-    if merged == Qos():
+    """The quality of service of a port, or of each connection if they differ."""
+    first = requested[0][1]
+    if all(qos == first for _, qos in requested):
+        yield from ("--qos", f"{port}={format_qos(first)}") if first != Qos() else ()
         return
-    yield from ("--qos", f"{port}={format_qos(merged)}")
-    if len({qos for _, qos in requested}) > 1:
-        for peer, qos in requested:
-            if qos != Qos():
-                yield from ("--qos", f"{port}/{peer}={format_qos(qos)}")
+    for peer, qos in requested:
+        if qos != Qos():
+            yield from ("--qos", f"{port}/{peer}={format_qos(qos)}")
 
 
 def _monitor_entries(

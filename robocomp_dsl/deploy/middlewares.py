@@ -20,9 +20,8 @@ def check_middlewares(deployment: Deployment, known: KnownMiddlewares) -> Iterat
     for name, instance in _first_users(deployment).items():
         description = known.describe(name)
         if description is None:
-            message = f"`{instance.name}` uses the middleware `{name}`, which cannot be loaded"
-            help_text = f"the middlewares are {', '.join(known.names())}"
-            yield Diagnostic(codes.MIDDLEWARE, instance.span, message, help=help_text)
+            message = f"`{instance.name}`: {known.problem(name)}"
+            yield Diagnostic(codes.MIDDLEWARE, instance.span, message)
         elif not description.capabilities.between_processes:
             message = f"`{instance.name}` uses the middleware `{name}`, which cannot connect "
             help_text = "name another one: `middleware zenoh;`"

@@ -17,6 +17,7 @@ from robocomp_dsl.deploy import codes
 from robocomp_dsl.deploy.middlewares import check_middlewares
 from robocomp_dsl.deploy.parameters import runtime_schema
 from robocomp_dsl.deploy.plan import Plan, Process
+from robocomp_dsl.deploy.port_addresses import check_port_addresses
 from robocomp_dsl.diagnostics import Code, Diagnostic, Note
 from robocomp_dsl.finding import Finding
 from robocomp_dsl.model.deployment import Deployment, Instance
@@ -46,6 +47,7 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
             findings += missing or check_configuration(instance, process)
     if ports:
         findings += _check_ports(deployment)
+        findings += check_port_addresses(deployment, KnownMiddlewares(), _bind_error)
         findings += _check_names(deployment, plan)
     return findings
 

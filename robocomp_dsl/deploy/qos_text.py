@@ -1,54 +1,12 @@
-"""The quality of service of ports as text for command lines. Pure.
-
-In: the quality of service of connections. Out: that of a port, and `reliable,depth=1`.
-"""
+"""The quality of service of connections as text for command lines. Pure."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import TypeVar
-
 from robocomp_dsl.model.deployment import Qos
-
-PRIORITIES = ("background", "low", "normal", "high", "realtime")
-ValueT = TypeVar("ValueT")
-
-
-def merge_qos(qualities: Iterable[Qos]) -> Qos:
-    """The quality of service that satisfies all of `qualities`."""
-    requested = list(qualities)
-    keep_all = _strictest((q.keep_all for q in requested), any)
-    depth = _strictest((q.depth for q in requested), max)
-    return Qos(
-        reliable=_strictest((q.reliable for q in requested), any),
-        priority=_strictest((q.priority for q in requested), _highest),
-        depth=None if keep_all else depth,
-        deadline_ms=_strictest((q.deadline_ms for q in requested), min),
-        keep_all=keep_all,
-        latched=_strictest((q.latched for q in requested), any),
-        liveliness_ms=_strictest((q.liveliness_ms for q in requested), min),
-        thread_priority=_strictest((q.thread_priority for q in requested), max),
-    )
-
-
-def _strictest(
-    values: Iterable[ValueT | None], select: Callable[[Iterable[ValueT]], ValueT]
-) -> ValueT | None:
-    """`select` of the values that are specified; None without any."""
-    specified = [value for value in values if value is not None]
-    return select(specified) if specified else None
-
-
-def _highest(priorities: Iterable[str]) -> str:
-    return max(priorities, key=_priority_rank)
-
-
-def _priority_rank(priority: str) -> int:
-    return PRIORITIES.index(priority) if priority in PRIORITIES else 0
 
 
 def format_qos(qos: Qos) -> str:
-    """The value of `--qos PORT=`: `best_effort,depth=1,deadline=40`; times in ms."""
+    """The value of `--qos PORT=` or `--qos PORT/PEER=`: `best_effort,depth=1`; times in ms."""
     items = []
     if qos.reliable is not None:
         items.append("reliable" if qos.reliable else "best_effort")

@@ -43,9 +43,9 @@ BUILTINS = frozenset(_BUILTINS.split())
 """Python's own names; a list, because `dir(builtins)` differs between versions."""
 
 _MODULE = """INTERFACE SCHEMA SPEC annotations np rt main interfaces params genericworker
-specificworker Any Callable overload Literal GenericWorker SpecificWorker Component ComponentSpec
-CalledPort ServedPort Group Parameter ParameterGroup Parameters initialize compute emergency restore
-finalize"""
+specificworker Annotated Any Callable overload Literal GenericWorker SpecificWorker Component
+ComponentSpec CalledPort ServedPort Group Parameter ParameterGroup Parameters initialize compute
+emergency restore finalize"""
 MODULE = frozenset(_MODULE.split())
 """Names of generated modules and classes that are not the user's."""
 
@@ -116,6 +116,7 @@ COMPONENT_MEMBERS = frozenset(
         "clock",
         "compute",
         "config_file",
+        "deadline_missed",
         "declare_emergency",
         "emergency",
         "end_emergency",
@@ -125,6 +126,8 @@ COMPONENT_MEMBERS = frozenset(
         "machine",
         "name",
         "params",
+        "publisher_alive",
+        "publisher_lost",
         "quit",
         "restore",
         "set_period",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import StrEnum
 from pathlib import Path
 
-from robocomp_dsl.model.types import Declaration, ExceptionType, Type
+from robocomp_dsl.model.types import Declaration, ExceptionType, Struct, Type
 from robocomp_dsl.record import Record
 from robocomp_dsl.source import Span
 
@@ -50,6 +50,26 @@ class Operation(Record):
     marked: bool
     doc: str = ""
 
+    @property
+    def ros_service(self) -> str:
+        """`std_srvs/srv/SetBool` if its input and result are those of one ROS service, or ""."""
+        outputs = [*([self.result] if self.result else []), *(p.type for p in self.outputs)]
+        types = [*(p.type for p in self.inputs), *outputs]
+        names = [t.ros_name for t in types if isinstance(t, Struct)]
+        if len(self.inputs) != 1 or len(types) != 2 or len(names) != 2 or self.throws:
+            return ""
+        name = names[0].removesuffix("_Request")
+        is_service = "/srv/" in name and names == [f"{name}_Request", f"{name}_Response"]
+        return name if is_service else ""
+
+    @property
+    def ros_topic(self) -> str:
+        """`std_msgs/msg/String` if its only parameter is that ROS message, or ""."""
+        if len(self.inputs) != 1 or self.result or self.outputs or self.throws:
+            return ""
+        type_ = self.inputs[0].type
+        return type_.ros_name if isinstance(type_, Struct) else ""
+
     def as_topic(self) -> Pattern:
         """The pattern if the interface is published or subscribed to."""
         return Pattern.PUBLISH if self.pattern is Pattern.UNMARKED else self.pattern
@@ -82,6 +102,11 @@ class Module(Record):
     def interfaces(self) -> tuple[Interface, ...]:
         """The interfaces of the module."""
         return tuple(d for d in self.declarations if isinstance(d, Interface))
+
+    @property
+    def is_ros(self) -> bool:
+        """Whether it is a ROS definition."""
+        return any(isinstance(d, Struct) and d.ros_name for d in self.declarations)
 
     def closure(self) -> tuple[Module, ...]:
         """The module and all its direct and indirect imports, imported modules first."""

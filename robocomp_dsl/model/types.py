@@ -12,10 +12,24 @@ from robocomp_dsl.source import Span
 
 
 class Primitive(ValueRecord):
-    """A built-in type; `bits` is its width on the wire, 0 for a string."""
+    """A built-in type; `bits` is its width on the wire, 0 for a string.
+
+    `bound` is the largest length of a string in bytes of UTF-8; 0: unlimited.
+    """
 
     name: str
     bits: int
+    bound: int = 0
+
+    @property
+    def is_text(self) -> bool:
+        """Whether it is a string."""
+        return not self.bits
+
+    @property
+    def is_unsigned(self) -> bool:
+        """Whether it is an integer without negative values."""
+        return self in (BYTE, OCTET, UINT16, UINT32, UINT64)
 
 
 BOOL = Primitive("bool", 8)
@@ -28,7 +42,32 @@ DOUBLE = Primitive("double", 64)
 STRING = Primitive("string", 0)
 
 PRIMITIVES = {t.name: t for t in (BOOL, BYTE, SHORT, INT, LONG, FLOAT, DOUBLE, STRING)}
-NUMBERS = (BYTE, SHORT, INT, LONG, FLOAT, DOUBLE)
+"""The built-in types of IDSL by name."""
+
+INT8 = Primitive("int8", 8)
+OCTET = Primitive("octet", 8)
+UINT16 = Primitive("uint16", 16)
+UINT32 = Primitive("uint32", 32)
+UINT64 = Primitive("uint64", 64)
+ROS_PRIMITIVES = {
+    "bool": BOOL,
+    "byte": OCTET,
+    "char": BYTE,
+    "uint8": BYTE,
+    "int8": INT8,
+    "int16": SHORT,
+    "uint16": UINT16,
+    "int32": INT,
+    "uint32": UINT32,
+    "int64": LONG,
+    "uint64": UINT64,
+    "float32": FLOAT,
+    "float64": DOUBLE,
+    "string": STRING,
+}
+"""The built-in types of ROS by name."""
+
+NUMBERS = (BYTE, SHORT, INT, LONG, FLOAT, DOUBLE, INT8, OCTET, UINT16, UINT32, UINT64)
 
 Literal: TypeAlias = bool | int | float | str
 
@@ -46,9 +85,17 @@ class Declaration(Record):
         """`Module::Name`, as users write it."""
         return f"{self.module}::{self.name}"
 
+    @property
+    def type_id(self) -> str:
+        """The name that running programs know it by."""
+        return self.qualified
+
 
 class Field(Record):
-    """A field of a struct or exception. An enum default is the name of the enumerator."""
+    """A field of a struct or exception. An enum default is the name of the enumerator.
+
+    `items` is the default of an array in a ROS definition.
+    """
 
     name: str
     type: Type
@@ -56,12 +103,30 @@ class Field(Record):
     default: Literal | None = None
     unit: str = ""
     doc: str = ""
+    items: tuple[Literal, ...] = ()
+
+
+class Constant(Record):
+    """A named value of a ROS message."""
+
+    name: str
+    type: Primitive
+    value: Literal
+    span: Span
+    doc: str = ""
 
 
 class Struct(Declaration):
-    """A record."""
+    """A record. `ros_name` is `sensor_msgs/msg/Image` if it was imported from ROS."""
 
     fields: tuple[Field, ...]
+    constants: tuple[Constant, ...] = ()
+    ros_name: str = ""
+
+    @property
+    def type_id(self) -> str:
+        """The ROS name, or `Module::Name`."""
+        return self.ros_name or self.qualified
 
 
 class ExceptionType(Declaration):
@@ -86,9 +151,21 @@ class Enum(Declaration):
 
 
 class Sequence(Declaration):
-    """`sequence<element> name`."""
+    """`sequence<element> name`, or the array of a field in a ROS definition.
+
+    The latter has no declaration: `is_anonymous`, and its name is that of its type, `double[36]`.
+    `size` is the number of elements of a fixed array, `bound` the largest number; 0: any.
+    """
 
     element: Type
+    size: int = 0
+    bound: int = 0
+    is_anonymous: bool = False
+
+    @property
+    def qualified(self) -> str:
+        """`Module::Name`, or the type of an anonymous one."""
+        return self.name if self.is_anonymous else f"{self.module}::{self.name}"
 
 
 class Dictionary(Declaration):
@@ -108,7 +185,7 @@ def is_fixed(type_: Type) -> bool:
     """
     match type_:
         case Primitive():
-            return type_ is not STRING
+            return not type_.is_text
         case Enum():
             return True
         case Struct():

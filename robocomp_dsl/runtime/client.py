@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from importlib import import_module
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -22,6 +23,8 @@ from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import Channel, ComponentContext
+from robocomp_dsl.runtime.connection.publisher_follower import PublisherFollower
+from robocomp_dsl.runtime.connection.usable_records import middlewares_of_subscribers
 from robocomp_dsl.runtime.errors import NoServer, SchemaError
 
 if TYPE_CHECKING:
@@ -92,9 +95,12 @@ class DomainClient:
         port: str,
         handlers: Mapping[str, Callable[..., Any]],
     ) -> None:
-        """Subscribe to a port; `handlers` are called by operation name."""
+        """Subscribe to a port, on its middlewares; `handlers` are called by operation name.
+
+        The component may start later.
+        """
         at = Endpoint(interface, self._name, port, (component,))
-        self._middleware.subscribe(at, handlers, self._execution)
+        PublisherFollower(self._middleware, at, handlers, self._execution)
 
     def channel(self, interface: Interface, component: str, port: str) -> Channel:
         """The channel of a port; with an empty component, of the only server."""
@@ -102,8 +108,13 @@ class DomainClient:
         return self._middleware.proxy(Endpoint(interface, self._name, port, peers))
 
     def publisher(self, interface: Interface, component: str, port: str) -> Channel:
-        """A channel that publishes what subscribers take for messages of a component's port."""
-        return self._middleware.advertise(Endpoint(interface, component, port))
+        """A channel that publishes what subscribers take for messages of a component's port.
+
+        It reaches subscribers on the middlewares of those that exist now.
+        """
+        at = Endpoint(interface, component, port)
+        middlewares = middlewares_of_subscribers(at, self._middleware.presence)
+        return self._middleware.advertise(replace(at, middlewares=middlewares))
 
     def close(self) -> None:
         """Leave the domain."""

@@ -21,8 +21,9 @@ from typing import TYPE_CHECKING, NoReturn
 from robocomp_dsl import __version__
 from robocomp_dsl.runtime.component import logs
 from robocomp_dsl.runtime.component.component import Component
+from robocomp_dsl.runtime.component.invalid_setting import InvalidSetting
+from robocomp_dsl.runtime.component.qos_settings import parse_qos
 from robocomp_dsl.runtime.component.settings import (
-    InvalidSetting,
     RunSettings,
     parse_addresses,
     parse_connections,
@@ -30,7 +31,6 @@ from robocomp_dsl.runtime.component.settings import (
     parse_middlewares,
     parse_name,
     parse_prefix,
-    parse_qos,
     parse_remaps,
     parse_transport_settings,
 )
@@ -215,10 +215,11 @@ def _parser(spec: ComponentSpec) -> argparse.ArgumentParser:
     add("--remap", metavar="PORT=NAME", action="append", default=[], help="rename a port")
     add(
         "--qos",
-        metavar="PORT=QOS",
+        metavar="PORT[/PEER]=QOS",
         action="append",
         default=[],
-        help="reliable|best_effort,depth=N,priority=high,deadline=MS",
+        help="reliable|best_effort,keep_all,depth=N,latched,priority=high,deadline=MS,"
+        "liveliness=MS,thread_priority=N",
     )
     add(
         "--clock",
@@ -271,14 +272,14 @@ def _default_log_level() -> str:
 def _settings(options: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
     """The settings of the command line. Raises `InvalidSetting`."""
     internal, external = parse_external(options.connect)
-    connections, qos = parse_connections(internal), parse_qos(options.qos)
+    connections = parse_connections(internal)
+    qos, peer_qos = parse_qos(options.qos)
     remaps, addresses = parse_remaps(options.remap), parse_addresses(options.address)
     middleware, port_middlewares = parse_middlewares(options.middleware)
     ports = list(_ports(spec))
     monitors = _monitors(options.monitors)
     own = (*(port for _, port in addresses), *(connection.port for connection in monitors))
-    qualified = (port.partition("/")[0] for port in qos)
-    for name in (*connections, *external, *qualified, *remaps, *port_middlewares, *own):
+    for name in (*connections, *external, *qos, *peer_qos, *remaps, *port_middlewares, *own):
         if name not in ports:
             known = f"its ports: {', '.join(ports)}" if ports else "it has no ports"
             raise InvalidSetting(f"{spec.name} has no port `{name}`; {known}")
@@ -304,6 +305,7 @@ def _settings(options: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
         overrides=tuple(options.set),
         connections=connections,
         qos=qos,
+        peer_qos=peer_qos,
         remaps=remaps,
         listen_port=options.listen_port,
         clock=options.clock,

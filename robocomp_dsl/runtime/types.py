@@ -21,12 +21,19 @@ from robocomp_dsl.runtime.data.schema import (
     DOUBLE,
     FLOAT,
     INT,
+    INT8,
     LONG,
+    OCTET,
     SHORT,
     STRING,
+    UINT16,
+    UINT32,
+    UINT64,
     Array,
     Dictionary,
     Enum,
+    Length,
+    MaxLength,
     Primitive,
     Sequence,
     Type,
@@ -54,12 +61,23 @@ Long: TypeAlias = Annotated[int, LONG]
 Float: TypeAlias = Annotated[float, FLOAT]
 Double: TypeAlias = Annotated[float, DOUBLE]
 String: TypeAlias = Annotated[str, STRING]
+# Only imported ROS types have these.
+Int8: TypeAlias = Annotated[int, INT8]
+Octet: TypeAlias = Annotated[int, OCTET]
+UInt16: TypeAlias = Annotated[int, UINT16]
+UInt32: TypeAlias = Annotated[int, UINT32]
+UInt64: TypeAlias = Annotated[int, UINT64]
 
 BoolArray: TypeAlias = Annotated[NDArray[np.bool_], Array(BOOL)]
 UInt8Array: TypeAlias = Annotated[NDArray[np.uint8], Array(BYTE)]
 Int16Array: TypeAlias = Annotated[NDArray[np.int16], Array(SHORT)]
 Int32Array: TypeAlias = Annotated[NDArray[np.int32], Array(INT)]
 Int64Array: TypeAlias = Annotated[NDArray[np.int64], Array(LONG)]
+Int8Array: TypeAlias = Annotated[NDArray[np.int8], Array(INT8)]
+OctetArray: TypeAlias = Annotated[NDArray[np.uint8], Array(OCTET)]
+UInt16Array: TypeAlias = Annotated[NDArray[np.uint16], Array(UINT16)]
+UInt32Array: TypeAlias = Annotated[NDArray[np.uint32], Array(UINT32)]
+UInt64Array: TypeAlias = Annotated[NDArray[np.uint64], Array(UINT64)]
 Float32Array: TypeAlias = Annotated[NDArray[np.float32], Array(FLOAT)]
 Float64Array: TypeAlias = Annotated[NDArray[np.float64], Array(DOUBLE)]
 
@@ -68,6 +86,11 @@ UInt8Column: TypeAlias = Column[np.uint8]
 Int16Column: TypeAlias = Column[np.int16]
 Int32Column: TypeAlias = Column[np.int32]
 Int64Column: TypeAlias = Column[np.int64]
+Int8Column: TypeAlias = Column[np.int8]
+OctetColumn: TypeAlias = Column[np.uint8]
+UInt16Column: TypeAlias = Column[np.uint16]
+UInt32Column: TypeAlias = Column[np.uint32]
+UInt64Column: TypeAlias = Column[np.uint64]
 Float32Column: TypeAlias = Column[np.float32]
 Float64Column: TypeAlias = Column[np.float64]
 
@@ -77,9 +100,14 @@ __all__ = [
     "DOUBLE",
     "FLOAT",
     "INT",
+    "INT8",
     "LONG",
+    "OCTET",
     "SHORT",
     "STRING",
+    "UINT16",
+    "UINT32",
+    "UINT64",
     "AmbiguousServer",
     "Array",
     "Bool",
@@ -99,6 +127,9 @@ __all__ = [
     "Float64Array",
     "Float64Column",
     "Int",
+    "Int8",
+    "Int8Array",
+    "Int8Column",
     "Int16Array",
     "Int16Column",
     "Int32Array",
@@ -107,12 +138,17 @@ __all__ = [
     "Int64Column",
     "Interface",
     "InterfaceMismatch",
+    "Length",
     "Long",
     "MalformedMessage",
+    "MaxLength",
     "MiddlewareError",
     "NestedColumn",
     "NoServer",
     "NotImplementedOperation",
+    "Octet",
+    "OctetArray",
+    "OctetColumn",
     "Operation",
     "Pattern",
     "Primitive",
@@ -127,5 +163,14 @@ __all__ = [
     "Type",
     "UInt8Array",
     "UInt8Column",
+    "UInt16",
+    "UInt16Array",
+    "UInt16Column",
+    "UInt32",
+    "UInt32Array",
+    "UInt32Column",
+    "UInt64",
+    "UInt64Array",
+    "UInt64Column",
     "default",
 ]

@@ -32,6 +32,13 @@ def parse_idsl(source: Source, report: Report) -> ast_idsl.File:
     return idsl.parse(source, report)
 
 
+def parse_ros(source: Source, report: Report) -> ast_idsl.File:
+    """The tree of a ROS definition: `.msg`, `.srv` or `.action`."""
+    from robocomp_dsl.syntax.ros import definition  # noqa: PLC0415 - loaded on first use
+
+    return definition.parse(source, report)
+
+
 def parse_cdsl(source: Source, report: Report) -> ast_cdsl.File:
     """The tree of a component description."""
     from robocomp_dsl.syntax.languages import cdsl  # noqa: PLC0415 - loaded on first use

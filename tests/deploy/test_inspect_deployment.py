@@ -19,5 +19,14 @@ def test_inspect_commands_find_components_of_deployment(app_folder: Path) -> Non
         assert "float angle [rad]" in details
         result = rcdeploy("call", "arm.Laser.getLaserData", "--json", "-d", "app")
         assert json.loads(result.stdout)[0]["angle"] == 0.5
+        rows = json.loads(rcdeploy("app.ddsl", "connections", "eye", "--json").stdout)
+        laser = next(row for row in rows if row["port"] == "Laser")
+        assert (laser["peer"], laser["state"]) == ("arm.Laser", "Connected")
+        changed = rcdeploy("qos", "app.ddsl", "eye.Laser", "arm.Laser", "priority=high")
+        assert changed.stdout.startswith("eye.Laser with arm.Laser: priority=high"), changed.stderr
+        removed = rcdeploy("app.ddsl", "disconnect", "eye.Laser", "arm.Laser")
+        assert "disconnected until eye ends" in removed.stdout, removed.stderr
+        again = rcdeploy("app.ddsl", "connect", "eye.Laser", "arm.Laser")
+        assert "connect eye.Laser -> arm.Laser;" in again.stdout, again.stderr
         wrong = rcdeploy("call", "amr.Laser.getLaserData")
         assert (wrong.returncode, "it has arm, eye" in wrong.stderr) == (1, True), wrong.stderr

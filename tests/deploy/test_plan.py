@@ -9,11 +9,13 @@ from typing import Any
 import pytest
 
 from robocomp_dsl.deploy.plan import batches, plan
-from robocomp_dsl.deploy.qos_text import format_qos, merge_qos
+from robocomp_dsl.deploy.qos_text import format_qos
 from robocomp_dsl.model.component import Component, Port, Role
 from robocomp_dsl.model.deployment import Clock, Connection, Deployment, Host, Instance, Qos
 from robocomp_dsl.model.interface import Interface
 from robocomp_dsl.model.parameter import ParameterSet
+from robocomp_dsl.runtime.component.qos_settings import parse_qos
+from robocomp_dsl.runtime.connection.endpoint import Qos as RuntimeQos
 from robocomp_dsl.source import Source
 
 SPAN = Source(Path("x.ddsl"), "x").file_span
@@ -216,15 +218,26 @@ def test_batches_reject_a_cycle() -> None:
 
 
 @pytest.mark.parametrize(
-    ("requested", "expected"),
+    ("qos", "expected"),
     [
-        ([Qos()], ""),
-        ([Qos(reliable=False, priority="low", depth=1, deadline_ms=40)],
+        (Qos(), ""),
+        (Qos(reliable=False, priority="low", depth=1, deadline_ms=40),
          "best_effort,depth=1,priority=low,deadline=40"),
-        ([Qos(reliable=False, depth=1), Qos(reliable=True, depth=9)], "reliable,depth=9"),
-        ([Qos(priority="low"), Qos(priority="realtime"), Qos()], "priority=realtime"),
-        ([Qos(deadline_ms=40), Qos(deadline_ms=12.5)], "deadline=12.5"),
+        (Qos(reliable=True, keep_all=True, latched=True), "reliable,keep_all,latched"),
+        (Qos(deadline_ms=12.5, liveliness_ms=500, thread_priority=3),
+         "deadline=12.5,liveliness=500,thread_priority=3"),
     ],
 )  # fmt: skip
-def test_merge_qos_selects_strictest_settings(requested: list[Qos], expected: str) -> None:
-    assert format_qos(merge_qos(requested)) == expected
+def test_format_qos_is_text_that_components_read(qos: Qos, expected: str) -> None:
+    assert format_qos(qos) == expected
+    ports, _ = parse_qos([f"Laser={expected}"] if expected else [])
+    assert ports.get("Laser", RuntimeQos()) == RuntimeQos(
+        reliable=qos.reliable,
+        depth=qos.depth,
+        priority=qos.priority,
+        deadline=qos.deadline_ms / 1000 if qos.deadline_ms else None,
+        keep_all=qos.keep_all,
+        latched=qos.latched,
+        liveliness=qos.liveliness_ms / 1000 if qos.liveliness_ms else None,
+        thread_priority=qos.thread_priority,
+    )

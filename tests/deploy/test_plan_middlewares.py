@@ -192,9 +192,7 @@ def test_plan_passes_qos_of_each_connection_if_they_differ(tmp_path: Path) -> No
     found = flags(tmp_path, text, "body")
     qos = [found[i + 1] for i, flag in enumerate(found) if flag == "--qos"]
     assert qos == [
-        "Laser=priority=high,thread_priority=7",
         "Laser/reflex.Laser=priority=high,thread_priority=7",
-        "LaserPub=depth=5,latched,liveliness=500",
         "LaserPub/reflex.LaserPub=depth=3,latched",
         "LaserPub/second.LaserPub=depth=5,liveliness=500",
     ]

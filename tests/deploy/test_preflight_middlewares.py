@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
-
 from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.deploy.middlewares import check_middlewares
-from robocomp_dsl.runtime.middleware import registry
 from robocomp_dsl.runtime.middleware.capabilities import Capabilities, MiddlewareDescription
 from tests.deploy.test_plan_middlewares import deployment_of
 
@@ -56,15 +53,10 @@ def test_preflight_reports_middleware_of_one_process(tmp_path: Path) -> None:
     ]
 
 
-def test_preflight_reports_middleware_that_cannot_be_loaded(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(name: str) -> MiddlewareDescription:
-        raise ImportError(name)
-
-    monkeypatch.setattr(registry, "description_of", fail)
-    ((place, message, _),) = findings(tmp_path, "component body { middleware shm; };")
-    assert (place, message) == ("body", "`body` uses the middleware `shm`, which cannot be loaded")
+def test_preflight_reports_middleware_that_cannot_be_loaded(tmp_path: Path) -> None:
+    deployment = deployment_of(tmp_path, "component body { middleware shm; };")
+    (finding,) = check_middlewares(deployment, KnownMiddlewares())
+    assert finding.message.startswith("`body`: unknown middleware `shm`; known: ")
 
 
 def test_preflight_of_default_middleware_has_no_findings(tmp_path: Path) -> None:

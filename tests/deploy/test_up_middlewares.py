@@ -29,6 +29,7 @@ def usable_middlewares() -> list[str]:
         for item in described
         if item.capabilities.between_processes
         and item.capabilities.services
+        and not item.capabilities.ros_types_only
         and not item.capabilities.valid_names
         and not missing_modules(item)
     ]

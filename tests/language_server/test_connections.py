@@ -6,7 +6,7 @@ import pytest
 from lsprotocol import types as lsp
 
 from tests.language_server import project
-from tests.language_server.editor_client import Editor
+from tests.language_server.editor_client import Editor, edited
 from tests.language_server.test_outline import tree
 
 pytestmark = pytest.mark.asyncio
@@ -86,3 +86,38 @@ async def test_errors_of_monitor_class_are_shown_at_the_monitor(editor: Editor) 
     assert finding.range.start.line == 6
     assert finding.related_information is not None
     assert finding.related_information[0].location.uri == editor.uri("limits.py")
+
+
+async def test_type_of_external_program_is_its_interface(editor: Editor) -> None:
+    project.write(editor)
+    params = lsp.TypeDefinitionParams(**editor.at("app.ddsl", placed(APP, "old over")))
+    (found,) = await editor.client.text_document_type_definition_async(params) or ()
+    assert isinstance(found, lsp.Location)
+    assert found.uri == editor.uri("Laser.idsl")
+
+
+async def test_rename_of_external_program_changes_all_references(editor: Editor) -> None:
+    project.write(editor)
+    params = lsp.RenameParams(new_name="robot", **editor.at("app.ddsl", placed(APP, "old over")))
+    found = await editor.client.text_document_rename_async(params)
+    assert found is not None
+    (edits,) = (found.changes or {}).values()
+    assert len(edits) == 4
+    after = edited(list(edits), APP)
+    assert "extern robot over ice" in after
+    assert "-> robot.Laser over zenoh" in after
+    assert "from robot.Laser when seen" in after
+
+
+async def test_call_hierarchy_includes_external_program(editor: Editor) -> None:
+    project.write(editor)
+    text = HEAD + (
+        "    component eye : reader;\n"
+        '    extern old over ice at "laser:tcp -p 1" implements Laser;\n'
+        "    connect eye.Laser -> old.Laser;\n};\n"
+    )
+    params = lsp.CallHierarchyPrepareParams(**editor.at("app.ddsl", placed(text, "eye")))
+    (item,) = await editor.client.text_document_prepare_call_hierarchy_async(params) or ()
+    calls = lsp.CallHierarchyOutgoingCallsParams(item)
+    found = await editor.client.call_hierarchy_outgoing_calls_async(calls)
+    assert [(entry.to.name, entry.to.detail) for entry in found or ()] == [("old", "over ice")]

@@ -13,8 +13,9 @@ from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import CalledPort
+from robocomp_dsl.runtime.connection import bounded_queue
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
-from robocomp_dsl.runtime.middleware.zenoh import held_publisher, reliable_queue, transport
+from robocomp_dsl.runtime.middleware.zenoh import held_publisher, transport
 from robocomp_dsl.runtime.parameters import Parameters
 from tests.middleware.network import Network, Node
 from tests.middleware.probe_types import NEWS, NewsProxy
@@ -49,7 +50,7 @@ def network(monkeypatch: pytest.MonkeyPatch) -> Iterator[Network]:
     monkeypatch.setattr(held_publisher, "_HELD_NS", HOLD_S * 0.9e9)
     monkeypatch.setattr(transport, "HOLD_S", HOLD_S)
     # As if the subscriber's process were stopped: it never drops a message itself.
-    monkeypatch.setattr(reliable_queue, "HOLD_S", 60.0)
+    monkeypatch.setattr(bounded_queue, "HOLD_S", 60.0)
     opened = Network("zenoh")
     yield opened
     opened.close()

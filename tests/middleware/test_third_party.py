@@ -11,7 +11,7 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -64,6 +64,8 @@ class SpecificWorker(GenericWorker):
     ticks = 0
     def Ticks_tick(self, number):
         self.ticks += 1
+        if number == 1000:
+            print("tick 1000", flush=True)
     def compute(self):
         if self.ticks:
             print("sum over pipe:", self.sum_proxy.add(20, 22), flush=True)
@@ -170,11 +172,16 @@ def test_generated_components_run_over_middleware(project: Path) -> None:
         (project / name / "specificworker.py").write_text(worker)
     with start_rcdeploy("app.ddsl") as running:
         running.until("all 2 components are ready", "sum over pipe: 42")
-        called = rcdeploy("call", "sums", "adder.Sum.add", "a=1", "b=2")
-        assert (called.returncode, called.stdout.split()[-1]) == (0, "3"), called.stderr
-        echoed = rcdeploy("echo", "sums", "adder.Ticks", "--count", "2")
+        called = rcdeploy("call", "adder.Sum.add", "1", "2")
+        assert (called.returncode, called.stdout) == (0, "3\n"), called.stderr
+        echoed = rcdeploy("echo", "adder.Ticks", "-n", "2")
         assert echoed.returncode == 0, echoed.stderr
-        assert "tick" in echoed.stdout
+        assert echoed.stdout.count("---") == 2
+        rate = rcdeploy("hz", "adder.Ticks", "--once")
+        assert rate.returncode == 0, rate.stderr
+        published = rcdeploy("pub", "asker.Ticks", "1000")
+        assert published.returncode == 0, published.stderr
+        running.until("tick 1000")
         running.process.send_signal(signal.SIGINT)
         assert running.end() == 0
 
@@ -222,3 +229,9 @@ except registry.UnknownMiddleware as error:
     assert "`broken` of robocomp-dsl-nowhere cannot be loaded: ModuleNotFoundError" in result.stdout
     assert "pip uninstall robocomp-dsl-nowhere" in result.stdout
     assert not result.stderr
+    (tmp_path / "c.cdsl").write_text(CLIENT.replace("requires Sum", "requires Sum(broken)"))
+    (tmp_path / "Sums.idsl").write_text(IDSL)
+    checked = rcgen("check", str(tmp_path / "c.cdsl"), "--format", "concise")
+    assert checked.returncode == 1
+    assert "RC214" in checked.stdout
+    assert "`broken` of robocomp-dsl-nowhere cannot be loaded: ModuleNotF" in checked.stdout

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -21,7 +23,20 @@ ROS_NAMES = {
     rt.FLOAT: "float32",
     rt.DOUBLE: "float64",
     rt.STRING: "string",
+    rt.INT8: "int8",
+    rt.OCTET: "uint8",  # rosbags reads `byte` as signed; ROS sends the same 8 bits
+    rt.UINT16: "uint16",
+    rt.UINT32: "uint32",
+    rt.UINT64: "uint64",
 }
+LENGTH = re.compile(r"\[[^]]*\]$")
+"""The brackets of a sequence: of any length, of at most or of exactly some elements."""
+
+
+def brackets(type_: rt.Array | rt.Sequence) -> str:
+    if type_.size:
+        return f"[{type_.size}]"
+    return f"[<={type_.bound}]" if type_.bound else "[]"
 
 
 class Peer:
@@ -47,11 +62,12 @@ class Peer:
     def declare(self, type_: Any) -> str:
         """The name of the type of one value."""
         if isinstance(type_, rt.Primitive):
-            return ROS_NAMES[type_]
+            bound = f"<={type_.bound}" if type_.bound else ""
+            return ROS_NAMES[replace(type_, bound=0)] + bound
         if isinstance(type_, rt.Array):
-            return f"{ROS_NAMES[type_.element]}[]"
+            return f"{ROS_NAMES[type_.element]}{brackets(type_)}"
         if isinstance(type_, rt.Sequence):
-            return self.sequence(self.declare(type_.element))
+            return self.sequence(self.declare(type_.element), brackets(type_))
         if isinstance(type_, rt.Dictionary):
             return self.struct([self.declare(type_.key), self.declare(type_.value)]) + "[]"
         if issubclass(type_, rt.StructArray):
@@ -62,15 +78,15 @@ class Peer:
             self.names[type_] = self.struct([self.declare(t) for _, t in type_._fields_])
         return self.names[type_]
 
-    def sequence(self, element: str) -> str:
-        return (self.struct([element]) if element.endswith("[]") else element) + "[]"
+    def sequence(self, element: str, length: str = "[]") -> str:
+        return (self.struct([element]) if element.endswith("]") else element) + length
 
     def value(self, name: str, type_: Any, value: Any) -> Any:
         """Our value as an object of the peer; `name` is that of the peer's type."""
         if isinstance(type_, rt.Primitive | rt.Array):
             return value
         if isinstance(type_, rt.Dictionary):
-            pair = name.removesuffix("[]")
+            pair = LENGTH.sub("", name)
             key, item = (self.field(pair, i) for i in (0, 1))
             return [
                 self.store.types[pair](
@@ -95,7 +111,7 @@ class Peer:
         )
 
     def items(self, name: str, element: Any, value: Any) -> list[Any]:
-        inner = name.removesuffix("[]")
+        inner = LENGTH.sub("", name)
         wrapped = isinstance(element, rt.Array | rt.Sequence | rt.Dictionary) or (
             isinstance(element, type) and issubclass(element, rt.StructArray)
         )
@@ -107,7 +123,7 @@ class Peer:
     def field(self, name: str, index: int) -> str:
         """The name of the type of a field of a struct of the peer."""
         kind, detail = self.definitions[name][1][index][1]
-        if kind.name == "SEQUENCE":
+        if kind.name in ("SEQUENCE", "ARRAY"):
             return str(detail[0][1] if detail[0][0].name == "NAME" else detail[0][1][0]) + "[]"
         return str(detail if kind.name == "NAME" else detail[0])
 

@@ -22,6 +22,14 @@ Component x
     language Python;
 };
 """
+CONNECTIONS = """\
+import "ComponentConnections.idsl";
+Component x
+{
+    Communications { implements ComponentConnections; requires ComponentConnections; };
+    language Python;
+};
+"""
 CLOCK = """\
 import "LockStep.idsl";
 import "Clock.idsl";
@@ -43,6 +51,7 @@ Component x { Communications { requires Simulation, InnerModelManager; }; langua
     [
         (COMPONENT, "runtime/component/component_interface"),
         (SCHEMA, "runtime/dynamic/schema_interface"),
+        (CONNECTIONS, "runtime/connection/connections_interface"),
         (CLOCK, "runtime/time/clock_interface"),
         (SIMULATION, "simulation/simulation_interface"),
     ],

@@ -123,7 +123,7 @@ def test_program_logs_json_lines(program: Program) -> None:
         (["--set", "rate=500"], 1, "rate"),
         (["--set", "rates=5"], 1, "did you mean `rate`"),
         (["--config", "nowhere.yaml"], 1, "nowhere.yaml"),
-        (["--middleware", "corba"], 1, "unknown middleware `corba`; known: ice"),
+        (["--middleware", "corba"], 1, "unknown middleware `corba`; known: dds"),
         (["--connect", "laser=base"], 2, "c has no port `laser`"),
         (["--qos", "x"], 2, "write PORT="),
         (["--name", "a/b"], 2, "`a/b` is not a valid name"),

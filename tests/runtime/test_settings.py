@@ -4,35 +4,20 @@ from __future__ import annotations
 
 import pytest
 
+from robocomp_dsl.runtime.component.invalid_setting import InvalidSetting
 from robocomp_dsl.runtime.component.settings import (
-    InvalidSetting,
     RunSettings,
     parse_connections,
     parse_peer,
     parse_prefix,
-    parse_qos,
     parse_remaps,
 )
-from robocomp_dsl.runtime.connection.endpoint import Qos
 
 
 @pytest.mark.parametrize("text", ["laser", "=base", "laser=", "laser=a b", "laser=*"])
 def test_parse_connections_rejects_invalid_text(text: str) -> None:
     with pytest.raises(InvalidSetting):
         parse_connections([text])
-
-
-@pytest.mark.parametrize(
-    "text", ["laser", "laser=fast", "laser=depth=0", "laser=depth=x", "laser=priority=urgent"]
-)
-def test_parse_qos_rejects_invalid_text(text: str) -> None:
-    with pytest.raises(InvalidSetting):
-        parse_qos([text])
-
-
-def test_parse_qos_reads_settings() -> None:
-    qualities = parse_qos(["laser=best_effort,depth=1", "laser=priority=high,deadline=40"])
-    assert qualities == {"laser": Qos(False, 1, "high", 0.04)}
 
 
 @pytest.mark.parametrize(
@@ -85,3 +70,14 @@ def test_parse_peer_rejects_invalid_text(text: str) -> None:
 def test_parse_remaps_rejects_invalid_text(text: str) -> None:
     with pytest.raises(InvalidSetting):
         parse_remaps([text])
+
+
+def test_address_of_renamed_port_is_known_by_its_new_name() -> None:
+    settings = RunSettings(
+        remaps={"Laser": "front", "Speech": "voice"},
+        addresses={("ice", "Laser"): "tcp -p 1", ("ice", "Speech"): "tcp -p 2"},
+    )
+    assert settings.visible_addresses(["Laser"]) == {
+        ("ice", "front"): "tcp -p 1",
+        ("ice", "Speech"): "tcp -p 2",
+    }

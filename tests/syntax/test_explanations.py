@@ -16,6 +16,7 @@ from robocomp_dsl.syntax.parse import (
     parse_idsl,
     parse_innermodel,
     parse_pdsl,
+    parse_ros,
     parse_smdsl,
 )
 
@@ -26,6 +27,7 @@ HEADS = {
     r"^\s*(Component|Communications)\b": (".cdsl", parse_cdsl),
     r"^\s*(module|Module|struct|interface|import)\b": (".idsl", parse_idsl),
     r"^\s*<": (".xml", parse_innermodel),
+    r"^(float32|w?string)\b": (".msg", parse_ros),
 }
 EXAMPLE = re.compile(r"^(Wrong|Right)[^\n]*:\n\n((?:    [^\n]*\n|\n)+)", re.MULTILINE)
 CODES = sorted(stage_codes("syntax"), key=lambda code: code.id)

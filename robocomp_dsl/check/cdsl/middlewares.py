@@ -5,13 +5,16 @@ In: a name and the known middlewares. Out: the name to use, and diagnostics.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
+from robocomp_dsl.check.codes import connections as connection_codes
 from robocomp_dsl.check.codes import names as codes
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.diagnostics import Report, nearest
+from robocomp_dsl.model.component import Component, Port
+from robocomp_dsl.syntax.ast import cdsl as ast
 from robocomp_dsl.syntax.ast.base import Name
 
 DEFAULT = "zenoh"
@@ -26,7 +29,16 @@ def find_middleware(written: Name | None, known: KnownMiddlewares, report: Repor
     name = known.find(written.text)
     if name is None:
         _report_unknown(written, known, report)
-    return name or ""
+        return ""
+    return _loadable(written, name, known, report)
+
+
+def _loadable(written: Name, name: str, known: KnownMiddlewares, report: Report) -> str:
+    """`name` if its distribution can be loaded; empty otherwise, which is reported."""
+    problem = known.problem(name)
+    if problem:
+        report.add(codes.UNKNOWN_MIDDLEWARE, written.span, problem)
+    return "" if problem else name
 
 
 def port_middlewares(
@@ -34,6 +46,33 @@ def port_middlewares(
 ) -> tuple[str, ...]:
     """The middlewares of `Laser(zenoh, local)`; those that are not available are left out."""
     return tuple(filter(None, (_port_middleware(mark, known, report) for mark in marks)))
+
+
+def check_roles(
+    pairs: Iterable[tuple[ast.Port, Port]],
+    component: Component,
+    known: KnownMiddlewares,
+    report: Report,
+) -> None:
+    """Report ports over a middleware that has no services, or no topics.
+
+    The default middleware has both.
+    """
+    for tree, port in pairs:
+        marks = {known.find(mark.text): mark.span for mark in tree.middlewares}
+        for name in port.middlewares or (component.middleware,):
+            description = known.describe(name) if name != DEFAULT else None
+            if description is None:
+                continue
+            can = description.capabilities
+            if not (can.topics if port.role.is_topic else can.services):
+                kind = "topics" if port.role.is_topic else "services"
+                report.add(
+                    connection_codes.UNSUITABLE_MIDDLEWARE,
+                    marks.get(name, tree.interface.span),
+                    f"`{name}` has no {kind}: the component {port.role} `{port.interface.name}`",
+                    help=f"name another middleware for it: `{port.interface.name}({DEFAULT})`",
+                )
 
 
 def _port_middleware(mark: Name, known: KnownMiddlewares, report: Report) -> str:
@@ -46,7 +85,9 @@ def _port_middleware(mark: Name, known: KnownMiddlewares, report: Report) -> str
         )
     elif name is None:
         _report_unknown(mark, known, report)
-    return name or ""
+    else:
+        return _loadable(mark, name, known, report)
+    return ""
 
 
 def _report_unknown(written: Name, known: KnownMiddlewares, report: Report) -> None:

@@ -8,7 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from robocomp_dsl.check.cdsl.middlewares import DEFAULT, find_middleware, port_middlewares
+from robocomp_dsl.check.cdsl.middlewares import (
+    DEFAULT,
+    check_roles,
+    find_middleware,
+    port_middlewares,
+)
 from robocomp_dsl.check.cdsl.options import expand_options
 from robocomp_dsl.check.cdsl.ports import port_names
 from robocomp_dsl.check.codes import names as codes
@@ -68,6 +73,7 @@ def resolve_cdsl(
         options=tuple(option.text for option in tree.options),
         doc=tree.doc,
     )
+    check_roles(pairs, component, workspace.middlewares, report)
     return ResolvedComponent(component, pairs)
 
 

@@ -48,8 +48,8 @@ UNSUPPORTED_QOS = Code(
     "quality of service that the connection cannot have",
     """\
 A middleware that does not honour an item of the quality of service cannot carry a connection that
-asks for it. `keep all` excludes `best_effort`; `keep all`, `latched` and `liveliness` are for
-topics.
+asks for it. `keep all` excludes `best_effort`; `keep all`, `latched`, `deadline` and `liveliness`
+are for topics.
 
 Wrong, where `Skin` is a service:
 

@@ -24,6 +24,28 @@ Right:
 """,
 )
 
+MISSING_ROS_DEFINITION = Code(
+    "RC222",
+    Severity.ERROR,
+    "ROS definition not found",
+    """\
+The path of an imported ROS definition has its package: `package/msg/Name.msg`,
+`package/srv/Name.srv` or `package/action/Name.action`. The first match is used, in the folder of
+the checked file, the `-I` folders, those of ROBOCOMP_INTERFACES, AMENT_PREFIX_PATH (ROS 2) and
+ROS_PACKAGE_PATH (ROS 1), the interfaces that come with the tool, and the library rosbags, which has
+the common messages of ROS 2: `pip install robocomp_dsl[ros]`. A folder contains packages, or
+`share` with packages.
+
+Wrong:
+
+    import "LaserScan.msg";
+
+Right:
+
+    import "sensor_msgs/msg/LaserScan.msg";
+""",
+)
+
 IMPORT_CYCLE = Code(
     "RC202",
     Severity.ERROR,

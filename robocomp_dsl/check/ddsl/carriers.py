@@ -16,6 +16,7 @@ from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.diagnostics import Code, Note, Report
 from robocomp_dsl.model.component import Port
 from robocomp_dsl.model.deployment import Connection, External, Instance, Qos
+from robocomp_dsl.model.interface import Pattern
 from robocomp_dsl.model.port_middlewares import (
     connection_middleware,
     declared_middlewares,
@@ -27,8 +28,8 @@ from robocomp_dsl.source import Span
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.middleware.capabilities import Capabilities
 
-_TOPIC_ITEMS = ("keep_all", "latched", "liveliness_ms")
-_NAMES = {"keep_all": "keep all", "liveliness_ms": "liveliness"}
+_TOPIC_ITEMS = ("keep_all", "latched", "deadline_ms", "liveliness_ms")
+_NAMES = {"keep_all": "keep all", "deadline_ms": "deadline", "liveliness_ms": "liveliness"}
 
 
 class _Problem(ValueRecord):
@@ -170,10 +171,29 @@ def _problems(connection: Connection, name: str, capabilities: Capabilities) -> 
                 if capabilities.valid_names and not re.fullmatch(capabilities.valid_names, word):
                     message = f"`{word}` is not a valid name over `{name}`"
                     yield _Problem(codes.UNSUITABLE_MIDDLEWARE, message)
+    if capabilities.ros_types_only:
+        yield from _ros_problems(connection.source_port, name)
     for item in _required_items(connection.qos, is_topic=connection.source_port.role.is_topic):
         if item not in capabilities.qos:
             message = f"`{name}` does not honour `{_NAMES.get(item, item)}`"
             yield _Problem(codes.UNSUPPORTED_QOS, message)
+
+
+def _ros_problems(port: Port, name: str) -> Iterator[_Problem]:
+    """The operations of a port that ROS cannot express."""
+    for operation in port.interface.operations:
+        is_topic = port.role.is_topic or operation.pattern is Pattern.COMMAND
+        if not (operation.ros_topic if is_topic else operation.ros_service):
+            types = (
+                "a parameter that is one imported `.msg`"
+                if is_topic
+                else "the request and response of one imported `.srv`"
+            )
+            message = (
+                f"`{name}` carries ROS types only: `{operation.name}` of"
+                f" `{port.interface.name}` needs {types}"
+            )
+            yield _Problem(codes.UNSUITABLE_MIDDLEWARE, message)
 
 
 def _reach_problems(

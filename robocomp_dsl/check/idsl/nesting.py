@@ -9,7 +9,9 @@ from robocomp_dsl.model import types
 
 MAX_DEPTH = 64
 MAX_VALUES = 100_000
-"""Built-in values per value, not counting the elements of sequences."""
+"""Built-in values per value, not counting the elements of sequences without a fixed size."""
+NUMBERS_PER_VALUE = 100
+"""Numbers of a fixed array that count as one value: they are one block of memory."""
 
 
 class Nesting:
@@ -24,7 +26,7 @@ class Nesting:
         if known is None:
             inside = [self.measure(part) for part in _parts(type_)]
             depth = 1 + max((depth for depth, _ in inside), default=0)
-            known = (depth, max(1, sum(values for _, values in inside)))
+            known = (depth, _repeated(type_, max(1, sum(values for _, values in inside))))
             self._known[id(type_)] = known
         return known
 
@@ -32,6 +34,15 @@ class Nesting:
         """Whether `type_` exceeds the limits."""
         depth, values = self.measure(type_)
         return depth > MAX_DEPTH or values > MAX_VALUES
+
+
+def _repeated(type_: types.Declaration | types.Primitive, values: int) -> int:
+    """The number of values if `type_` contains `values` once; numbers of an array count less."""
+    if not isinstance(type_, types.Sequence) or not type_.size:
+        return values
+    if isinstance(type_.element, types.Primitive) and not type_.element.is_text:
+        return 1 + type_.size // NUMBERS_PER_VALUE
+    return values * type_.size
 
 
 def _parts(type_: types.Declaration | types.Primitive) -> list[types.Type]:

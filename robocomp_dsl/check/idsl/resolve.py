@@ -21,7 +21,7 @@ from robocomp_dsl.model import interface as model
 from robocomp_dsl.model import types
 from robocomp_dsl.record import Record
 from robocomp_dsl.syntax.ast import idsl as ast
-from robocomp_dsl.syntax.ast.base import Node, QualifiedName
+from robocomp_dsl.syntax.ast.base import Literal, Node, QualifiedName
 
 
 class ResolvedModule(Record):
@@ -49,7 +49,10 @@ class _Resolver:
         self._written = {node.name.text: node for node in written}
         self._declared: dict[str, types.Declaration | None] = {}
         self._open: dict[str, QualifiedName | None] = {}
-        self._names = TypeResolver(tree.name.text, self._written, self._own, visible, report)
+        primitives = types.ROS_PRIMITIVES if tree.is_ros else types.PRIMITIVES
+        self._names = TypeResolver(
+            tree.name.text, self._written, self._own, visible, report, primitives
+        )
         self._nesting = Nesting()
         self._pairs: list[tuple[Node, object]] = []
 
@@ -93,7 +96,8 @@ class _Resolver:
         head = (self._tree.name.text, tree.name.text, tree.name.span, tree.doc)
         match tree:
             case ast.Struct():
-                return types.Struct(*head, self._fields(tree.fields))
+                fields = self._fields(tree.fields, tree.constants)
+                return types.Struct(*head, fields, self._constants(tree.constants), tree.ros_name)
             case ast.ExceptionDecl():
                 return types.ExceptionType(*head, self._fields(tree.fields))
             case ast.Enum():
@@ -107,34 +111,85 @@ class _Resolver:
             case ast.Interface():
                 return model.Interface(*head, self._operations(tree.operations))
 
-    def _fields(self, trees: Sequence[ast.Field]) -> tuple[types.Field, ...]:
-        fields = (self._field(node) for node in unique_by_name(trees, "field", self._report))
+    def _fields(
+        self, trees: Sequence[ast.Field], constants: Sequence[ast.Constant] = ()
+    ) -> tuple[types.Field, ...]:
+        members: tuple[ast.Field | ast.Constant, ...] = (*constants, *trees)
+        unique = unique_by_name(members, "field", self._report)
+        fields = (self._field(node) for node in unique if isinstance(node, ast.Field))
         return tuple(node for node in fields if node is not None)
 
     def _field(self, tree: ast.Field) -> types.Field | None:
-        type_ = self._names.data(tree.type)
-        if type_ is None:
+        element = self._names.data(tree.type)
+        if element is None:
             return None
+        if tree.string_bound and isinstance(element, types.Primitive):
+            element = element.replace(
+                name=f"{element.name}<={tree.string_bound}", bound=tree.string_bound
+            )
         unit = tree.unit.text if tree.unit else ""
-        default = self._default(tree, type_)
-        field = types.Field(tree.name.text, type_, tree.name.span, default, unit, tree.doc)
+        default = self._literal(tree.default, element, f"the default of `{tree.name.text}`")
+        type_ = self._array(tree.array, element) if tree.array else element
+        items = self._items(tree, element)
+        field = types.Field(tree.name.text, type_, tree.name.span, default, unit, tree.doc, items)
         self._pairs.append((tree, field))
         return field
 
-    def _default(self, tree: ast.Field, type_: types.Type) -> types.Literal | None:
-        if tree.default is None:
+    def _array(self, tree: ast.Array, element: types.Type) -> types.Sequence:
+        name = element.name if isinstance(element, types.Primitive) else element.qualified
+        limit = f"<={tree.bound}" if tree.bound else str(tree.size or "")
+        return types.Sequence(
+            self._tree.name.text,
+            f"{name}[{limit}]",
+            tree.span,
+            "",
+            element,
+            tree.size,
+            tree.bound,
+            is_anonymous=True,
+        )
+
+    def _items(self, tree: ast.Field, element: types.Type) -> tuple[types.Literal, ...]:
+        """The default of an array, whose number of values must fit."""
+        what = f"the default of `{tree.name.text}`"
+        items = [self._literal(item, element, what) for item in tree.items]
+        array, count = tree.array, len(items)
+        if array and items and (count > (array.bound or count) or count != (array.size or count)):
+            span = tree.items[0].span.cover(tree.items[-1].span)
+            self._report.add(
+                codes.DEFAULT_VALUE, span, f"{what} has {count} values for `{array.span.text}`"
+            )
+            return ()
+        return tuple(item for item in items if item is not None)
+
+    def _literal(self, tree: Literal | None, type_: types.Type, what: str) -> types.Literal | None:
+        if tree is None:
             return None
         try:
-            return as_type(tree.default, type_)
+            return as_type(tree, type_)
         except TypeMismatch as wrong:
             code = codes.DEFAULT_VALUE if isinstance(wrong, OutOfRange) else codes.DEFAULT_TYPE
             self._report.add(
-                code,
-                tree.default.span,
-                f"the default of `{tree.name.text}` does not fit `{type_.name}`: {wrong}",
-                label=wrong.label,
+                code, tree.span, f"{what} does not fit `{type_.name}`: {wrong}", label=wrong.label
             )
             return None
+
+    def _constants(self, trees: Sequence[ast.Constant]) -> tuple[types.Constant, ...]:
+        constants: dict[str, types.Constant] = {}
+        for tree in trees:
+            type_ = self._names.data(tree.type)
+            if not isinstance(type_, types.Primitive):
+                self._report.add(
+                    codes.DEFAULT_TYPE,
+                    tree.type.span,
+                    f"the constant `{tree.name.text}` is not of a built-in type",
+                )
+                continue
+            value = self._literal(tree.value, type_, f"the constant `{tree.name.text}`")
+            if value is not None:
+                constant = types.Constant(tree.name.text, type_, value, tree.name.span, tree.doc)
+                constants.setdefault(constant.name, constant)
+        return tuple(constants.values())
 
     def _enumerators(self, trees: Sequence[ast.Enumerator]) -> tuple[types.Enumerator, ...]:
         enumerators: list[types.Enumerator] = []

@@ -13,6 +13,7 @@ from typing import Protocol, TypeVar
 
 from robocomp_dsl.check.names.suggest import ImportSuggestion
 from robocomp_dsl.check.workspace.loaded import ResolvedImport, transitive_imports
+from robocomp_dsl.check.workspace.ros_definitions import is_ros_import
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.model.interface import Module
 from robocomp_dsl.model.types import Declaration
@@ -54,7 +55,9 @@ class ImportScope:
         trees = [file, *(loaded.parsed for loaded in transitive)]
         self._broken = [loaded.source for loaded in trees if not loaded.tree.complete]
         every_link = [*links, *(link for loaded in transitive for link in loaded.imports)]
-        self._missing = any(link.loaded is None for link in every_link)
+        missing = [link.statement.path.value for link in every_link if link.loaded is None]
+        self._missing = bool(missing)
+        self._missing_packages = {w.partition("/")[0] for w in missing if is_ros_import(w)}
 
     def lookup(self, name: QualifiedName, kind: type[Kind]) -> list[Kind]:
         """The declarations called `name`; direct imports shadow indirect ones."""
@@ -94,6 +97,8 @@ class ImportScope:
     def is_follow_on_error(self, name: QualifiedName, guess: str | None) -> bool:
         """Whether an unknown `name` is probably caused by an error that is already reported."""
         if name.name.text in self._declared_in_broken:
+            return True
+        if name.module and name.module.text in self._missing_packages:
             return True
         return self._missing and guess is None
 

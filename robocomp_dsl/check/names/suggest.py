@@ -5,6 +5,7 @@ In: the name and the file that uses it. Out: the files that could be imported, a
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -16,6 +17,10 @@ from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.source import Source, UnreadableSource
 from robocomp_dsl.syntax.ast.base import Import, QualifiedName
 from robocomp_dsl.syntax.parse import parse_idsl
+from robocomp_dsl.syntax.ros.kinds import ROS_PARTS
+
+ROS_PACKAGE = re.compile(r"[a-z][a-z0-9_]*")
+"""The name of a ROS package; IDSL modules usually begin with a capital letter."""
 
 
 class ImportSuggestion(ValueRecord):
@@ -47,9 +52,25 @@ def suggest_import(
     seen = search.files_mentioning(name.name.text, source.path)
     found = [path for path in seen if path != source.path and _declares(path, name, files)]
     if not found:
-        return None
+        return _suggest_ros(name, source, imports, search)
     fix = add_import(found[0].name, source, imports) if len(found) == 1 else None
     return ImportSuggestion(tuple(found), fix)
+
+
+def _suggest_ros(
+    name: QualifiedName, source: Source, imports: Sequence[Import], search: ImportResolver
+) -> ImportSuggestion | None:
+    """The ROS definition of `sensor_msgs::LaserScan` or `std_srvs::SetBool_Request`."""
+    if name.module is None or ROS_PACKAGE.fullmatch(name.module.text) is None:
+        return None
+    stem, _, part = name.name.text.rpartition("_")
+    for suffix, parts in ROS_PARTS.items():
+        plain = stem if f"_{part}" in parts else name.name.text if "" in parts else ""
+        written = f"{name.module.text}/{suffix[1:]}/{plain}{suffix}"
+        path = search.ros.find(written, source.path, source.path) if plain else None
+        if path is not None:
+            return ImportSuggestion((path,), add_import(written, source, imports))
+    return None
 
 
 def add_import(file: str, source: Source, imports: Sequence[Import]) -> Fix:

@@ -5,7 +5,7 @@ In: a name. Out: the declaration, or None and a diagnostic (unless one was repor
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import TypeVar
 
 from robocomp_dsl.check.codes import types as codes
@@ -24,10 +24,13 @@ _DATA = (types.Struct, types.Enum, types.Sequence, types.Dictionary)
 _FOREIGN = {
     "boolean": "bool",
     "char": "byte",
+    "int8": "short",
     "uint8": "byte",
     "int16": "short",
     "int32": "int",
     "unsigned": "int",
+    "uint16": "int",
+    "uint32": "long",
     "int64": "long",
     "real": "float",
     "float32": "float",
@@ -50,7 +53,9 @@ class TypeResolver:
         own: Own,
         visible: ImportScope,
         report: Report,
+        primitives: Mapping[str, types.Primitive] = types.PRIMITIVES,
     ) -> None:
+        self._primitives = primitives
         self._module = module
         self._own_names = own_names
         self._own = own
@@ -60,8 +65,8 @@ class TypeResolver:
 
     def data(self, name: QualifiedName) -> types.Type | None:
         """The data type called `name`."""
-        if name.module is None and name.name.text in types.PRIMITIVES:
-            return types.PRIMITIVES[name.name.text]
+        if name.module is None and name.name.text in self._primitives:
+            return self._primitives[name.name.text]
         found = self._declaration(name, _DATA)
         if isinstance(found, _DATA):
             return found

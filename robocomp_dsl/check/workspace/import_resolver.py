@@ -12,6 +12,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
+from robocomp_dsl.check.workspace.ros_definitions import RosDefinitions
 from robocomp_dsl.check.workspace.source_cache import SourceCache
 from robocomp_dsl.diagnostics import nearest
 from robocomp_dsl.source import Source, UnreadableSource
@@ -36,7 +37,9 @@ class ImportResolver:
     ) -> None:
         self._files = files
         listed = (Path(folder) for folder in environ.get(VARIABLE, "").split(os.pathsep) if folder)
-        self._everywhere = (*folders, *listed, shipped)
+        named = (*folders, *listed)
+        self._everywhere = (*named, shipped)
+        self.ros = RosDefinitions(files, named, environ, shipped)
         self._declared: dict[Path, tuple[Source, frozenset[str]]] = {}
         self._importable: tuple[Path, list[Path]] | None = None
 

@@ -10,18 +10,27 @@ from pathlib import Path
 
 from robocomp_dsl.check.codes import names as codes
 from robocomp_dsl.check.workspace.import_resolver import SUFFIX, ImportResolver, base_name
+from robocomp_dsl.check.workspace.ros_definitions import canonical_name, is_ros_import
+from robocomp_dsl.check.workspace.ros_imports import (
+    report_definition_in_component,
+    report_missing_definition,
+)
 from robocomp_dsl.diagnostics import Edit, Fix, Note, Report
 from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast.base import Import
 
 _SLICE = "ice"
+_COMPONENT = ".cdsl"
 
 CycleStep = tuple[str, Import]
 """A file and the statement that imports the next file of the cycle."""
 
 
 def locate_import(statement: Import, root: Path, search: ImportResolver) -> Path | None:
-    """The IDSL file of an import in the checked file `root`, or None."""
+    """The file of an import in the checked file `root`, or None."""
+    written = statement.path.value
+    if is_ros_import(written):
+        return search.ros.find(written, statement.path.span.source.path, root)
     name = _idsl_name(base_name(statement.path.value))
     return search.find(name, root) if name.lower().endswith(SUFFIX) else None
 
@@ -32,7 +41,12 @@ def find_import(
     """As `locate`; a missing file is reported."""
     found = locate_import(statement, root, search)
     name = base_name(statement.path.value)
-    if found is None:
+    if is_ros_import(name):
+        if statement.span.source.path.suffix.lower() == _COMPONENT:
+            report_definition_in_component(statement, report)
+        elif found is None:
+            report_missing_definition(statement, root, search, report)
+    elif found is None:
         if name.lower().endswith(SUFFIX):
             _report_missing(name, statement, root, search, report)
         else:
@@ -46,7 +60,9 @@ def report_duplicate_imports(statements: Sequence[Import], report: Report) -> No
     """Report files that are imported twice."""
     first: dict[str, Import] = {}
     for statement in statements:
-        earlier = first.setdefault(base_name(statement.path.value), statement)
+        written = statement.path.value
+        key = canonical_name(written) if is_ros_import(written) else ""
+        earlier = first.setdefault(key or base_name(written), statement)
         if earlier is not statement:
             report.add(
                 codes.DUPLICATE_IMPORT,

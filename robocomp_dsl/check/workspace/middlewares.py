@@ -19,7 +19,6 @@ class KnownMiddlewares:
 
     def __init__(self, further: Sequence[MiddlewareDescription] = ()) -> None:
         self._further = {description.name: description for description in further}
-        self._descriptions: dict[str, MiddlewareDescription | None] = dict(self._further)
 
     def find(self, written: str) -> str | None:
         """The name of a middleware, which may be written in any case; None if it is unknown."""
@@ -36,14 +35,23 @@ class KnownMiddlewares:
 
     def describe(self, name: str) -> MiddlewareDescription | None:
         """The description of a middleware; None if it is unknown or cannot be loaded."""
-        if name not in self._descriptions:
-            from robocomp_dsl.runtime.middleware.registry import description_of  # noqa: PLC0415
+        if name in self._further:
+            return self._further[name]
+        from robocomp_dsl.runtime.middleware.registry import description_of  # noqa: PLC0415
 
-            try:
-                self._descriptions[name] = description_of(name)
-            except Exception:  # of the code of another distribution
-                self._descriptions[name] = None
-        return self._descriptions[name]
+        return description_of(name)
+
+    def problem(self, name: str) -> str:
+        """Why a middleware of another distribution cannot be used; empty if it can."""
+        from robocomp_dsl.runtime.middleware import registry  # noqa: PLC0415
+
+        if name in self._further or name in registry.BUILT_IN:
+            return ""
+        try:
+            registry.capabilities_of(name)
+        except registry.UnknownMiddleware as error:
+            return str(error)
+        return ""
 
 
 def _match(written: str, names: Sequence[str]) -> str | None:

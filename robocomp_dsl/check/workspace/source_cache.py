@@ -43,6 +43,7 @@ class SourceCache:
 
     def __init__(self) -> None:
         self._overlays: dict[str, Source] = {}
+        self._virtual: dict[str, Source] = {}
         self._sources: dict[str, tuple[_Stamp, Source]] = {}
         self._parsed: dict[tuple[str, Any], Parsed[Any]] = {}
 
@@ -58,9 +59,18 @@ class SourceCache:
         """Use the file on disk at `path` again."""
         self._overlays.pop(canonical_path(path), None)
 
+    def set_virtual(self, path: Path, text: str) -> None:
+        """Use `text` where there is no file at `path`: a text that is stored elsewhere."""
+        self._virtual[canonical_path(path)] = Source(path, text)
+
     def exists(self, path: Path) -> bool:
-        """Whether there is an overlay or a regular file at `path`."""
-        return _is_file(path) or (bool(self._overlays) and canonical_path(path) in self._overlays)
+        """Whether there is an overlay, a regular file or a virtual file at `path`."""
+        if _is_file(path):
+            return True
+        if not self._overlays and not self._virtual:
+            return False
+        key = canonical_path(path)
+        return key in self._overlays or key in self._virtual
 
     def names_in(self, folder: Path) -> list[str]:
         """Names of the files in `folder` and of the overlays for it, sorted."""
@@ -81,6 +91,8 @@ class SourceCache:
         cached = self._sources.get(key)
         if cached is not None and stamp is not None and cached[0] == stamp:
             return cached[1]
+        if stamp is None and key in self._virtual:
+            return self._virtual[key]
         source = Source.read(path)
         if stamp is not None:
             self._sources[key] = (stamp, source)

@@ -26,10 +26,12 @@ from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcgen.breaking_deployments import check_deployment
 from robocomp_dsl.diagnostics import Diagnostic, Report, Severity
 from robocomp_dsl.source import Source, Span
+from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
 SUFFIXES = (".idsl", ".cdsl", ".pdsl")
 DEPLOYMENTS = ".ddsl"
-ARCHIVED_SUFFIXES = (*SUFFIXES, DEPLOYMENTS, ".smdsl", ".scxml", ".yaml", ".yml", ".toml")
+_NAMED = (".smdsl", ".scxml", ".yaml", ".yml", ".toml", *ROS_SUFFIXES)
+ARCHIVED_SUFFIXES = (*SUFFIXES, DEPLOYMENTS, *_NAMED)
 """The files extracted from an archive: descriptions, and the files that they name."""
 GIT_TIMEOUT_S = 60.0
 SKIPPED_FOLDERS = {".git", ".venv", "node_modules", "build", ".rcgen"}

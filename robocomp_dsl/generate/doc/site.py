@@ -19,7 +19,7 @@ from robocomp_dsl.model.deployment import Deployment
 from robocomp_dsl.model.interface import Interface, Module
 from robocomp_dsl.model.parameter import ParameterSet
 from robocomp_dsl.model.statemachine import StateMachine
-from robocomp_dsl.model.types import Declaration, Primitive, Type
+from robocomp_dsl.model.types import Declaration, Primitive, Sequence, Type
 
 MAX_NAME_LENGTH = 80
 
@@ -83,6 +83,9 @@ class DocumentationSite:
 
     def type_link(self, type_: Type) -> Inlines:
         """The name of a type, as a link unless it is built in."""
+        if isinstance(type_, Sequence) and type_.is_anonymous:
+            brackets = type_.name[type_.name.rindex("[") :]
+            return (*self.type_link(type_.element), InlineCode(brackets))
         return (
             (InlineCode(type_.name),)
             if isinstance(type_, Primitive)

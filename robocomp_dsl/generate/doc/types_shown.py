@@ -57,6 +57,8 @@ def type_blocks(declaration: Declaration, anchor: str, site: DocumentationSite) 
         yield from data_table(
             f"Fields of {declaration.name}", head, [_field(f, site) for f in declaration.fields]
         )
+        if isinstance(declaration, Struct) and declaration.constants:
+            yield from _constants(declaration)
     elif isinstance(declaration, Enum):
         rows = [
             TableRow((inline_code(e.name), inline_code(str(e.value)), flatten_doc(e.doc)))
@@ -65,6 +67,30 @@ def type_blocks(declaration: Declaration, anchor: str, site: DocumentationSite) 
         yield from data_table(
             f"Values of {declaration.name}", ("name", "value", "what it is"), rows
         )
+
+
+def _constants(struct: Struct) -> Iterator[Block]:
+    """The table of the constants of a ROS message."""
+    rows = [
+        TableRow(
+            (
+                inline_code(c.name),
+                inline_code(c.type.name),
+                inline_code(format_default(c.value, c.type)),
+                flatten_doc(c.doc),
+            )
+        )
+        for c in struct.constants
+    ]
+    head = ("constant", "type", "value", "what it is")
+    yield from data_table(f"Constants of {struct.name}", head, rows)
+
+
+def _default(field: Field) -> str:
+    if field.items and isinstance(field.type, Sequence):
+        items = [format_default(item, field.type.element) for item in field.items]
+        return f"[{', '.join(items)}]"
+    return format_default(field.default, field.type)
 
 
 def container_declaration(declaration: Sequence | Dictionary, site: DocumentationSite) -> Inlines:
@@ -95,7 +121,7 @@ def format_default(value: Literal | None, type_: Type) -> str:
 
 
 def _field(field: Field, site: DocumentationSite) -> TableRow:
-    default = inline_code(format_default(field.default, field.type))
+    default = inline_code(_default(field))
     doc = flatten_doc(field.doc)
     return TableRow(
         (inline_code(field.name), site.type_link(field.type), inline_code(field.unit), default, doc)
@@ -112,7 +138,9 @@ def referenced_types(interface: Interface) -> tuple[Declaration, ...]:
     ]
     while todo:
         referenced = todo.pop()
-        if not isinstance(referenced, Primitive) and id(referenced) not in types:
+        if isinstance(referenced, Sequence) and referenced.is_anonymous:
+            todo.append(referenced.element)
+        elif not isinstance(referenced, Primitive) and id(referenced) not in types:
             types[id(referenced)] = referenced
             todo.extend(reversed(list(_member_types(referenced))))
     return tuple(types.values())

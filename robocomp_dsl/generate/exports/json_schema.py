@@ -18,8 +18,6 @@ from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.model.interface import Interface, Module, Operation, Param, Pattern
 from robocomp_dsl.model.types import (
     BOOL,
-    BYTE,
-    STRING,
     Declaration,
     Dictionary,
     Enum,
@@ -95,19 +93,30 @@ def _type_schema(type_: Type) -> Schema:
     match type_:
         case Primitive():
             return _primitive(type_)
+        case SequenceType() if type_.is_anonymous:
+            return _array(type_)
     return {"$ref": f"#/$defs/{type_.module}.{type_.name}"}
+
+
+def _array(array: SequenceType) -> Schema:
+    """The array of a field in a ROS definition."""
+    schema = {"type": "array", "items": _type_schema(array.element)}
+    if array.size:
+        return {**schema, "minItems": array.size, "maxItems": array.size}
+    return {**schema, "maxItems": array.bound} if array.bound else schema
 
 
 def _primitive(primitive: Primitive) -> Schema:
     if primitive is BOOL:
         return {"type": "boolean"}
-    if primitive is STRING:
-        return {"type": "string"}
+    if primitive.is_text:
+        # The bound is in bytes of UTF-8, so it also limits the characters.
+        return {"type": "string", **({"maxLength": primitive.bound} if primitive.bound else {})}
     if primitive.name in ("float", "double"):
         return {"type": "number"}
     low, high = (
-        (0, 255)
-        if primitive is BYTE
+        (0, (1 << primitive.bits) - 1)
+        if primitive.is_unsigned
         else (-(1 << (primitive.bits - 1)), (1 << (primitive.bits - 1)) - 1)
     )
     return {"type": "integer", "minimum": low, "maximum": high}
@@ -116,7 +125,7 @@ def _primitive(primitive: Primitive) -> Schema:
 def _object(members: Iterable[Field | Param]) -> Schema:
     """An object with exactly these members. Members with a default are optional."""
     all_ = list(members)
-    required = [member.name for member in all_ if getattr(member, "default", None) is None]
+    required = [member.name for member in all_ if _default(member) is None]
     return {
         "type": "object",
         "properties": {member.name: _member(member) for member in all_},
@@ -126,9 +135,16 @@ def _object(members: Iterable[Field | Param]) -> Schema:
 
 
 def _member(member: Field | Param) -> Schema:
-    doc, default = (member.doc, member.default) if isinstance(member, Field) else ("", None)
+    doc, default = member.doc if isinstance(member, Field) else "", _default(member)
     schema = {**_type_schema(member.type), **_description(doc, member.unit)}
     return schema if default is None else {**schema, "default": default}
+
+
+def _default(member: Field | Param) -> object:
+    """The default of a field, None without one."""
+    if not isinstance(member, Field):
+        return None
+    return list(member.items) if member.items else member.default
 
 
 def _dictionary(dictionary: Dictionary) -> Schema:
@@ -143,7 +159,7 @@ def _dictionary(dictionary: Dictionary) -> Schema:
             keys: Schema = {"propertyNames": _type_schema(dictionary.key)}
         case Primitive() if dictionary.key is BOOL:
             keys = {"propertyNames": {"enum": ["false", "true"]}}
-        case Primitive() if dictionary.key is not STRING:
+        case Primitive() if not dictionary.key.is_text:
             keys = {"propertyNames": {"pattern": "^(0|-?[1-9][0-9]*)$"}}
         case _:
             keys = {}

@@ -31,7 +31,8 @@ def files(modules: Sequence[Module], alone: bool, report: Report) -> Iterator[Ou
     """The packages of `modules`, and unless `alone` those of the imports, imports first."""
     everything = transitive_modules(modules)
     types = Ros2Types(everything, report)
-    chosen = [module for module in everything if not alone or module in modules]
+    mine = [module for module in everything if not alone or module in modules]
+    chosen = [module for module in mine if not module.is_ros]  # ROS has its own definitions
     for name in dict.fromkeys(module.name for module in chosen):
         inside = [module for module in chosen if module.name == name]
         yield from _Package(inside, types, report).files()
@@ -117,7 +118,7 @@ class _Package:
         for module in self._modules:
             for interface in module.interfaces:
                 for each in interface.operations:
-                    if each.as_service() is not Pattern.PUBLISH:
+                    if each.as_service() is not Pattern.PUBLISH and not each.ros_service:
                         path = f"srv/{self._types.operation(each)}.srv"
                         yield path, self._service(interface, each)
 
@@ -149,7 +150,8 @@ class _Package:
             for each in interface.operations:
                 called = f"{interface.name}.{each.name}"
                 if each.as_service() is not Pattern.PUBLISH:
-                    yield called, "service", f"{self._name}/srv/{self._types.operation(each)}"
+                    own = f"{self._name}/srv/{self._types.operation(each)}"
+                    yield called, "service", each.ros_service or own
                 if each.as_topic() is Pattern.PUBLISH:
                     yield called, "topic", self._topic_type(each)
 
@@ -157,6 +159,8 @@ class _Package:
         struct = _only_struct(operation)
         if struct is None:
             return f"{self._name}/msg/{self._types.operation(operation)}"
+        if struct.ros_name:
+            return struct.ros_name
         return f"{self._types.package(struct.module)}/msg/{self._types.message(struct)}"
 
 

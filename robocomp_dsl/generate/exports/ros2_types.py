@@ -61,6 +61,10 @@ class Ros2Types:
         packages = NameTable(rules.package_name, rules.fold_name)
         scopes: dict[str, NameTable] = {}
         for module in modules:
+            if module.is_ros:
+                self._packages[module.name] = module.name
+                self._messages |= {d: d.name for d in module.declarations}
+                continue
             if module.name not in self._packages:
                 self._packages[module.name], moved = packages.claim(module.name)
                 scopes[module.name] = NameTable(rules.message_name, rules.fold_name)

@@ -20,6 +20,11 @@ from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.templates import render
 from robocomp_dsl.model.interface import Interface, Module, Operation
 from robocomp_dsl.model.types import (
+    INT8,
+    OCTET,
+    UINT16,
+    UINT32,
+    UINT64,
     Declaration,
     Dictionary,
     Enum,
@@ -34,6 +39,8 @@ from robocomp_dsl.model.types import (
 )
 
 STEP = "    "
+_SAME_SIZE = {INT8: "byte", OCTET: "byte", UINT16: "short", UINT32: "int", UINT64: "long"}
+"""Slice types of ROS's numbers: with the same bytes, as Slice has no unsigned types."""
 
 
 def files(modules: Sequence[Module], alone: bool, report: Report) -> Iterator[OutputFile]:
@@ -42,20 +49,22 @@ def files(modules: Sequence[Module], alone: bool, report: Report) -> Iterator[Ou
     names = SliceNames(everything, report)
     for path, inside in modules_by_file(everything).items():
         if not alone or path == modules[0].path:
-            yield OutputFile(_file_name(path), _file(path, inside, names, report))
+            yield OutputFile(_file_name(path, inside), _file(path, inside, names, report))
 
 
-def _file_name(path: Path) -> str:
-    return f"{path.stem}.ice"
+def _file_name(path: Path, modules: Iterable[Module]) -> str:
+    """ROS packages may have the same names, so the file of a definition is named after both."""
+    package = next((f"{module.name}_" for module in modules if module.is_ros), "")
+    return f"{package}{path.stem}.ice"
 
 
 def _file(path: Path, modules: Sequence[Module], names: SliceNames, report: Report) -> str:
-    paths = dict.fromkeys(imported.path for module in modules for imported in module.imports)
+    imports = modules_by_file(imported for module in modules for imported in module.imports)
     text = render(
         "slice/interface.ice",
         source=literals.printable(path.name),
         guard=f"{re.sub(r'[^0-9A-Za-z]', '_', path.stem).upper()}_ICE",
-        includes=[_file_name(imported) for imported in paths if imported != path],
+        includes=[_file_name(file, inside) for file, inside in imports.items() if file != path],
         modules=[
             {
                 "name": escape_keyword(names.module(module.name)),
@@ -121,7 +130,8 @@ class _Printer:
             case Enum():
                 text = f"enum {name}{_block(self._enumerators(declaration))}"
             case Struct():
-                text = f"struct {name}{_block(self._struct(declaration))}"
+                arrays = "".join(f"{row}\n" for row in self._arrays(declaration))
+                text = f"{arrays}struct {name}{_block(self._struct(declaration))}"
             case ExceptionType():
                 text = f"exception {name}{_block(self._fields(declaration.fields))}"
             case SequenceType():
@@ -140,7 +150,9 @@ class _Printer:
 
     def _type(self, type_: Type | ExceptionType) -> str:
         if isinstance(type_, Primitive):
-            return type_.name
+            return "string" if type_.is_text else _SAME_SIZE.get(type_, type_.name)
+        if isinstance(type_, SequenceType) and type_.is_anonymous:
+            return self._names[type_]
         # Slice rejects a short name that is also the name of a member.
         hidden = self._names[type_].lower() in self._inside
         if hidden or type_.module != self._module.name:
@@ -171,6 +183,13 @@ class _Printer:
             yield "bool unused;"
         yield from self._fields(struct.fields)
 
+    def _arrays(self, struct: Struct) -> Iterator[str]:
+        """The sequences of the fields of a ROS definition, which have no names there."""
+        for field in struct.fields:
+            if isinstance(field.type, SequenceType) and field.type.is_anonymous:
+                name = self._names[field.type]
+                yield f"sequence<{self._type(field.type.element)}> {name};"
+
     def _fields(self, all_: Iterable[Field]) -> Iterator[str]:
         for field in all_:
             yield from comment(field.doc, field.unit)
@@ -178,6 +197,8 @@ class _Printer:
             yield f"{self._type(field.type)} {name}{self._default(field)};"
 
     def _default(self, field: Field) -> str:
+        if field.type in _SAME_SIZE:  # the default may be out of the range of the Slice type
+            return ""
         match field.default:
             case None:
                 return ""

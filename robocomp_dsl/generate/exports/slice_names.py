@@ -12,6 +12,7 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.export import report_renamed
 from robocomp_dsl.model.interface import Interface, Module, Operation, Param
 from robocomp_dsl.model.types import Declaration, Enum, Enumerator, ExceptionType, Field, Struct
+from robocomp_dsl.model.types import Sequence as SequenceType
 from robocomp_dsl.name_table import NameTable
 from robocomp_dsl.slice_identifiers import valid_name
 
@@ -50,10 +51,11 @@ class SliceNames:
 
     def __init__(self, modules: Sequence[Module], report: Report) -> None:
         self._report = report
+        self._scopes: dict[str, NameTable] = {}
         self._names: dict[NamedElement, str] = {}
         self._modules: dict[str, str] = {}
         outer = NameTable(valid_name)
-        inner: dict[str, NameTable] = {}
+        inner = self._scopes
         for module in modules:
             if module.name not in self._modules:
                 self._modules[module.name] = outer.claim(module.name)[0]
@@ -75,6 +77,7 @@ class SliceNames:
         match declaration:
             case Struct() | ExceptionType():
                 self._claim(declaration.fields, NameTable(valid_name))
+                self._claim_arrays(declaration)
             case Enum():
                 self._claim(declaration.enumerators, NameTable(valid_name))
             case Interface():
@@ -83,6 +86,13 @@ class SliceNames:
                 )
                 for operation in declaration.operations:
                     self._claim((*operation.inputs, *operation.outputs), NameTable(valid_name))
+
+    def _claim_arrays(self, declaration: Struct | ExceptionType) -> None:
+        """Name the arrays of a ROS definition after their fields."""
+        for field in declaration.fields:
+            if isinstance(field.type, SequenceType) and field.type.is_anonymous:
+                name = f"{self._names[declaration]}_{self._names[field]}"
+                self._names[field.type] = self._scopes[declaration.module].claim(name)[0]
 
     def _claim(self, all_: Iterable[NamedElement], scope: NameTable) -> None:
         # Valid names are claimed first, so that they stay unchanged.

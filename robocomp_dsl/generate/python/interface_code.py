@@ -134,8 +134,13 @@ def _exceptions(types: PythonTypes) -> Iterator[str]:
 
 
 def _imports(types: tuple[TypeCode, ...], interfaces: tuple[InterfaceCode, ...]) -> Iterator[str]:
+    typing = []
+    if any("Annotated[" in field.type for type_ in types for field in type_.fields):
+        typing = ["Annotated"]
     if any(len(form.takers) > 1 for interface in interfaces for form in interface.forms):
-        yield "from typing import Any, overload"
+        typing += ["Any", "overload"]
+    if typing:
+        yield f"from typing import {', '.join(typing)}"
         yield ""
     if types or interfaces:
         yield "from robocomp_dsl.runtime import types as rt"

@@ -16,9 +16,14 @@ from robocomp_dsl.model.types import (
     DOUBLE,
     FLOAT,
     INT,
+    INT8,
     LONG,
+    OCTET,
     SHORT,
     STRING,
+    UINT16,
+    UINT32,
+    UINT64,
     Declaration,
     Dictionary,
     Enum,
@@ -35,7 +40,8 @@ from robocomp_dsl.model.types import (
 from robocomp_dsl.record import ValueRecord
 
 _ANNOTATION = {BOOL: "bool", STRING: "str", FLOAT: "float", DOUBLE: "float"}  # others: int
-_ZERO = {BOOL: "False", STRING: '""', FLOAT: "0.0", DOUBLE: "0.0"}  # others: 0
+_UNSIGNED = {UINT16: "rt.UInt16", UINT32: "rt.UInt32", UINT64: "rt.UInt64"}
+_ZERO: dict[Type, str] = {BOOL: "False", STRING: '""', FLOAT: "0.0", DOUBLE: "0.0"}  # others: 0
 
 
 class NumpyArray(ValueRecord):
@@ -54,6 +60,11 @@ _NUMPY = {
     LONG: NumpyArray("rt.Int64Array", "rt.Int64Column", "np.int64"),
     FLOAT: NumpyArray("rt.Float32Array", "rt.Float32Column", "np.float32"),
     DOUBLE: NumpyArray("rt.Float64Array", "rt.Float64Column", "np.float64"),
+    INT8: NumpyArray("rt.Int8Array", "rt.Int8Column", "np.int8"),
+    OCTET: NumpyArray("rt.OctetArray", "rt.OctetColumn", "np.uint8"),
+    UINT16: NumpyArray("rt.UInt16Array", "rt.UInt16Column", "np.uint16"),
+    UINT32: NumpyArray("rt.UInt32Array", "rt.UInt32Column", "np.uint32"),
+    UINT64: NumpyArray("rt.UInt64Array", "rt.UInt64Column", "np.uint64"),
 }
 
 
@@ -74,6 +85,8 @@ class PythonTypes:
             for d in module.declarations
             if isinstance(d, Struct | Enum | Sequence | Dictionary | ExceptionType)
         ]
+        self._arrays = {a.element: a for a in _arrays_of_ros(found)}
+        found = [*self._arrays.values(), *found]
         self.names, self.scope = names.of_declarations(found)
         self.ordered = tuple(_dependencies_first(found))
         self.hidden = frozenset(_hidden(found, self.names))
@@ -91,7 +104,7 @@ class PythonTypes:
     def annotation(self, type_: Type) -> str:
         """The annotation of a type after a colon."""
         if isinstance(type_, Primitive):
-            return _ANNOTATION.get(type_, "int")
+            return "str" if type_.is_text else _ANNOTATION.get(type_, "int")
         return self.names[type_]
 
     def declared(self, type_: Type, inside: Struct | ExceptionType | None = None) -> str:
@@ -100,12 +113,27 @@ class PythonTypes:
         In the struct `inside` a field with the name of its type hides the type.
         """
         if isinstance(type_, Primitive):
-            return f"rt.{type_.name.capitalize()}"
+            return _declared_primitive(type_)
+        if isinstance(type_, Sequence) and type_.is_anonymous:
+            return self._declared_array(type_, inside)
         name = self.names[type_]
         return f"_{name}" if inside is not None and name in field_names(inside) else name
 
+    def _declared_array(self, type_: Sequence, inside: Struct | ExceptionType | None) -> str:
+        """The annotation of the array of a field in a ROS definition."""
+        if type_.element in self._arrays and not (type_.size or type_.bound):
+            return self.declared(self._arrays[type_.element], inside)
+        array = numpy_of(type_)
+        plain = array.alias if array else f"list[{self.declared(type_.element, inside)}]"
+        if type_.size:
+            return f"Annotated[{plain}, rt.Length({type_.size})]"
+        return f"Annotated[{plain}, rt.MaxLength({type_.bound})]" if type_.bound else plain
+
     def default(self, field: Field, inside: Struct | ExceptionType) -> str:
         """The default of a field in the struct `inside`."""
+        if field.items and isinstance(field.type, Sequence):
+            element = field.type.element
+            return f"rt.default({', '.join(_primitive(element, item) for item in field.items)})"
         zero = self.zero(field.type, field.default)
         if zero.fresh:
             return "rt.default()"
@@ -119,6 +147,8 @@ class PythonTypes:
             return Zero(_primitive(type_, default))
         if isinstance(type_, Enum):
             return Zero(self._first(type_, default))
+        if isinstance(type_, Sequence) and type_.is_anonymous:
+            return Zero("[]", fresh=True)
         if isinstance(type_, Struct) or record_element(type_):
             return Zero(f"{self.names[type_]}()", fresh=True)
         if array := numpy_of(type_):
@@ -151,9 +181,16 @@ class PythonTypes:
         ]
 
 
-def _primitive(type_: Primitive, default: Literal | None) -> str:
+def _declared_primitive(type_: Primitive) -> str:
+    if type_.bound:
+        return f"Annotated[rt.String, rt.MaxLength({type_.bound})]"
+    return _UNSIGNED.get(type_, f"rt.{type_.name.capitalize()}")
+
+
+def _primitive(type_: Type, default: Literal | None) -> str:
     if default is None:
-        return _ZERO.get(type_, "0")
+        is_text = isinstance(type_, Primitive) and type_.is_text
+        return '""' if is_text else _ZERO.get(type_, "0")
     return python_value(float(default) if type_ in (FLOAT, DOUBLE) else default)
 
 
@@ -186,14 +223,35 @@ def field_names(type_: Struct | ExceptionType) -> tuple[str, ...]:
     return names.unique([f.name for f in type_.fields], reserved)
 
 
+def _arrays_of_ros(found: Iterable[Declaration]) -> Iterator[Sequence]:
+    """A named array for each struct of which ROS definitions have arrays of any length."""
+    elements = {
+        element: None
+        for declaration in found
+        if isinstance(declaration, Struct)
+        for field in declaration.fields
+        if isinstance(field.type, Sequence) and field.type.is_anonymous
+        if not (field.type.size or field.type.bound) and (element := record_element(field.type))
+    }
+    for struct in elements:
+        doc = f"A sequence of {struct.qualified}."
+        yield Sequence(struct.module, f"{struct.name}Sequence", struct.span, doc, struct)
+
+
 def _hidden(found: Iterable[Declaration], type_names: dict[Declaration, str]) -> Iterator[str]:
     """Types whose name is also a field of the same struct, as in `Pose Pose;`."""
     for declaration in found:
         if isinstance(declaration, Struct | ExceptionType):
-            needed = {
-                type_names[f.type] for f in declaration.fields if isinstance(f.type, Declaration)
-            }
+            referenced = (_declared_in(f.type) for f in declaration.fields)
+            needed = {type_names[type_] for type_ in referenced if type_ is not None}
             yield from needed & set(field_names(declaration))
+
+
+def _declared_in(type_: Type) -> Declaration | None:
+    """The declaration that the annotation of a field names."""
+    if isinstance(type_, Sequence) and type_.is_anonymous:
+        type_ = type_.element
+    return None if isinstance(type_, Primitive) else type_
 
 
 def _enumerator_names(type_: Enum) -> Iterator[tuple[Enumerator, str]]:
@@ -222,7 +280,8 @@ def _dependencies_first(declarations: Iterable[Declaration]) -> Iterator[Declara
         for type_ in _mentioned(enumerator):
             if isinstance(type_, Declaration):
                 yield from visit(type_)
-        yield enumerator
+        if not (isinstance(enumerator, Sequence) and enumerator.is_anonymous):
+            yield enumerator
 
     for declaration in declarations:
         yield from visit(declaration)

@@ -6,6 +6,8 @@ In: a declaration and the names of all types. Out: `TypeCode`, plain data for th
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+
 from robocomp_dsl.generate import docs, literals, names
 from robocomp_dsl.generate.python.layout import INNER, WIDTH
 from robocomp_dsl.generate.python.python_types import (
@@ -35,6 +37,14 @@ class FieldCode(ValueRecord):
     default: str
     above: tuple[str, ...]
     behind: str
+
+
+class ConstantCode(ValueRecord):
+    """A constant of a ROS message, with the comment lines above it."""
+
+    name: str
+    value: str
+    comments: tuple[str, ...]
 
 
 class EnumeratorCode(ValueRecord):
@@ -68,6 +78,7 @@ class TypeCode(ValueRecord):
     is_hidden: bool = False
     type_id: str = ""
     rename: str = ""
+    constants: tuple[ConstantCode, ...] = ()
     fields: tuple[FieldCode, ...] = ()
     values: tuple[EnumeratorCode, ...] = ()
     columns: tuple[ColumnCode, ...] = ()
@@ -118,10 +129,21 @@ def _struct(
         "rt.Struct" if isinstance(struct, Struct) else "rt.DeclaredError",
         literals.docstring(struct.doc, INNER, f"{struct.qualified}."),
         is_hidden=is_hidden,
-        type_id=literals.quoted(struct.qualified),
+        type_id=literals.quoted(struct.type_id),
         rename=f"{{{', '.join(renamed)}}}" if renamed else "",
+        constants=tuple(_constants(struct, attributes)),
         fields=tuple(_field(attribute, field, struct, types) for attribute, field in pairs),
     )
+
+
+def _constants(struct: Struct | ExceptionType, attributes: Iterable[str]) -> Iterator[ConstantCode]:
+    """The constants of a ROS message; their names differ from those of the fields."""
+    constants = struct.constants if isinstance(struct, Struct) else ()
+    reserved = names.STRUCT_MEMBERS | set(attributes)
+    constant_names = names.unique([constant.name for constant in constants], reserved)
+    for name, constant in zip(constant_names, constants, strict=True):
+        comments = tuple(literals.comment(constant.doc, INNER))
+        yield ConstantCode(name, literals.python_value(constant.value), comments)
 
 
 def _field(

@@ -34,6 +34,9 @@ def _imports(session: Session, context: CompletionContext) -> Iterator[str]:
     if context.path.suffix.lower() != ".ddsl":
         known = session.workspace.import_resolver.importable_files(context.path)
         yield from (name for name in known if name != context.path.name)
+        if context.path.suffix.lower() == ".idsl":
+            resolver = session.workspace.import_resolver
+            yield from resolver.ros.importable(context.path, context.path)
         return
     yield from _files_in_folder(session, context, (".cdsl",))
     for path in session.known_files():

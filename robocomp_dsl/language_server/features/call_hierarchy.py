@@ -23,13 +23,14 @@ from robocomp_dsl.language_server.symbols.dependencies import (
 )
 from robocomp_dsl.language_server.symbols.lookup import occurrences_at
 from robocomp_dsl.model.component import Component
-from robocomp_dsl.model.deployment import Deployment, Instance
+from robocomp_dsl.model.deployment import Deployment, External, Instance
 from robocomp_dsl.model.interface import Interface
 from robocomp_dsl.source import Span, UnreadableSource
 
 KINDS: dict[type, lsp.SymbolKind] = {
     Component: lsp.SymbolKind.Class,
     Instance: lsp.SymbolKind.Object,
+    External: lsp.SymbolKind.Object,
     Interface: lsp.SymbolKind.Interface,
 }
 
@@ -126,6 +127,8 @@ def _item(session: Session, participant: Participant) -> lsp.CallHierarchyItem:
     kind = KINDS[type(participant)]
     item = lsp.CallHierarchyItem(participant.name, kind, uri, extent, extent)
     match participant:
+        case External():
+            item.detail = f"over {participant.middleware}"
         case Instance():
             item.detail = f": {participant.component.name}"
         case Interface():

@@ -26,6 +26,7 @@ KINDS: dict[type, lsp.SymbolKind] = {
     idsl.Interface: lsp.SymbolKind.Interface,
     idsl.Operation: lsp.SymbolKind.Method,
     idsl.Field: lsp.SymbolKind.Field,
+    idsl.Constant: lsp.SymbolKind.Constant,
     cdsl.Component: lsp.SymbolKind.Class,
     cdsl.Port: lsp.SymbolKind.Property,
     pdsl.ParameterSet: lsp.SymbolKind.Class,

@@ -9,7 +9,7 @@ from __future__ import annotations
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 
-from robocomp_dsl.format.formatter import CannotFormat, changes, format_source
+from robocomp_dsl.format.formatter import PARSERS, CannotFormat, changes, format_source
 from robocomp_dsl.language_server.session import Session, UnsupportedDocument
 from robocomp_dsl.source import Source, UnreadableSource
 
@@ -33,7 +33,9 @@ def range_formatting(
 
 
 def _edits(session: Session, source: Source, first: int, last: int) -> list[lsp.TextEdit]:
-    """The edits that touch the characters [first, last]."""
+    """The edits that touch the characters [first, last]; none for a ROS definition."""
+    if source.path.suffix.lower() not in PARSERS:
+        return []
     try:
         new = format_source(source, session.parsed(source.path).diagnostics)
     except UnreadableSource as error:

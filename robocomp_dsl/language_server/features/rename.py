@@ -21,6 +21,7 @@ from robocomp_dsl.language_server.symbols.lookup import find_occurrences, occurr
 from robocomp_dsl.language_server.symbols.symbol import Occurrence, Symbol
 from robocomp_dsl.resources import INTERFACES
 from robocomp_dsl.syntax.grammar.tables import load
+from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _WORD = re.compile(r"[^\W\d][\w.:-]*")
@@ -36,6 +37,7 @@ def prepare(
     if selected is None:
         return None
     _reject_shipped(selected.symbol)
+    _reject_ros(selected.symbol)
     extent = session.positions.range_of(selected.span)
     return lsp.PrepareRenamePlaceholder(extent, selected.symbol.name)
 
@@ -47,6 +49,7 @@ def rename(session: Session, params: lsp.RenameParams) -> lsp.WorkspaceEdit | No
         return None
     symbol, name = selected.symbol, params.new_name
     _reject_shipped(symbol)
+    _reject_ros(symbol)
     suffix = symbol.span.source.path.suffix.lower()
     if suffix == ".scxml":
         _validate_scxml_id(name)
@@ -76,6 +79,14 @@ def _reject_shipped(symbol: Symbol) -> None:
         raise JsonRpcInvalidParams(
             f"`{symbol.name}` is declared in `{symbol.span.source.path.name}`, which ships with "
             "rcgen; copy that file beside yours to change it"
+        )
+
+
+def _reject_ros(symbol: Symbol) -> None:
+    if symbol.span.source.path.suffix.lower() in ROS_SUFFIXES:
+        raise JsonRpcInvalidParams(
+            f"`{symbol.name}` is declared in the ROS definition `{symbol.span.source.path.name}`; "
+            "its name is known to all ROS programs that use it"
         )
 
 

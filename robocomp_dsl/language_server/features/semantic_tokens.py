@@ -24,6 +24,7 @@ TYPES = {
     "interface": "interface",
     "operation": "method",
     "field": "property",
+    "constant": "enumMember",
     "parameter": "parameter",
     "component": "class",
     "parameters": "class",

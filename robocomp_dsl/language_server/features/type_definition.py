@@ -8,7 +8,7 @@ from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.language_server.symbols.lookup import location_of, occurrences_at
 from robocomp_dsl.model import types
 from robocomp_dsl.model.component import Port
-from robocomp_dsl.model.deployment import Instance
+from robocomp_dsl.model.deployment import External, Instance
 from robocomp_dsl.model.interface import Operation, Param
 from robocomp_dsl.source import Span
 
@@ -25,8 +25,8 @@ def type_definition(session: Session, params: lsp.TypeDefinitionParams) -> list[
 
 def _type_span(model_object: object) -> Span | None:
     match model_object:
-        case Port():
-            return model_object.interface.span
+        case Port(interface=interface) | External(only_port=Port(interface=interface)):
+            return interface.span
         case Instance():
             return model_object.component.span
         case (

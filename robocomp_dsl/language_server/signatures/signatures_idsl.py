@@ -43,7 +43,12 @@ def format_interface(interface: Interface) -> str:
 
 
 def _struct(struct: types.Struct) -> str:
-    return format_block(f"struct {struct.qualified}", _fields(struct.fields))
+    constants = [f"{_constant(constant)};" for constant in struct.constants]
+    return format_block(f"struct {struct.qualified}", [*constants, *_fields(struct.fields)])
+
+
+def _constant(constant: types.Constant) -> str:
+    return f"const {constant.type.name} {constant.name} = {_shown(constant.value)}"
 
 
 def _exception(exception: types.ExceptionType) -> str:
@@ -61,6 +66,8 @@ def _enumerator(value: types.Enumerator) -> str:
 
 def _sequence(sequence: types.Sequence) -> str:
     head = f"sequence<{type_name(sequence.element)}> {sequence.qualified};"
+    if sequence.is_anonymous:
+        return _referenced_signature(sequence.element).lstrip()
     return head + _referenced_signature(sequence.element)
 
 
@@ -80,12 +87,17 @@ def _member(member: types.Field | Param) -> str:
 
 
 def _fields(fields: Sequence[types.Field]) -> list[str]:
-    return [
-        _typed(field.type, field.name, field.unit)
-        + ("" if field.default is None else f" = {field.default!r}".replace("'", '"'))
-        + ";"
-        for field in fields
-    ]
+    return [_typed(field.type, field.name, field.unit) + _default(field) + ";" for field in fields]
+
+
+def _default(field: types.Field) -> str:
+    if field.items:
+        return f" = [{', '.join(map(_shown, field.items))}]"
+    return "" if field.default is None else f" = {_shown(field.default)}"
+
+
+def _shown(value: types.Literal) -> str:
+    return repr(value).replace("'", '"')
 
 
 def _typed(type_: types.Type, name: str, unit: str) -> str:
@@ -107,6 +119,7 @@ SIGNATURES: dict[type, Callable[[Any], str]] = {
     types.Sequence: _sequence,
     types.Dictionary: _dictionary,
     types.Field: _member,
+    types.Constant: _constant,
     Param: _member,
     Interface: format_interface,
     Operation: format_operation,

@@ -60,6 +60,9 @@ def _member_symbols(declaration: types.Declaration) -> Iterator[Symbol]:
         case types.Struct() | types.ExceptionType():
             for field in declaration.fields:
                 yield Symbol(field.name, "field", field.span, field, container)
+            constants = declaration.constants if isinstance(declaration, types.Struct) else ()
+            for constant in constants:
+                yield Symbol(constant.name, "constant", constant.span, constant, container)
         case types.Enum():
             for value in declaration.enumerators:
                 yield Symbol(value.name, "enumerator", value.span, value, container)

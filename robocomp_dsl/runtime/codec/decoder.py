@@ -17,10 +17,9 @@ import numpy as np
 from robocomp_dsl.runtime.codec.emitter import HEADER, Emitter
 from robocomp_dsl.runtime.codec.read import read
 from robocomp_dsl.runtime.codec.struct_arrays import checker, unpack
-from robocomp_dsl.runtime.data.layout import row_layout
+from robocomp_dsl.runtime.data.layout import padding, row_layout
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
-    STRING,
     Array,
     Dictionary,
     Enum,
@@ -137,8 +136,8 @@ class _Decoder(Emitter):
 
     def primitive(self, type_: Primitive) -> str:
         """A number, a bool or a string."""
-        if type_ is STRING:
-            return self.text()
+        if type_.is_text:
+            return self.text(type_)
         if type_ is BOOL:
             return f"{self.constant((False, True))}[{self.number('B')}]"
         return self.number(type_.code)
@@ -151,10 +150,12 @@ class _Decoder(Emitter):
         self.settle()
         return "o"
 
-    def text(self) -> str:
+    def text(self, type_: Primitive) -> str:
         """Length, UTF-8, NUL. Some peers write an empty string as length 0."""
         length, text, end = self.number("I"), self.name("s"), self.name("e")
         start = self.start()
+        if type_.bound:
+            self.line(f"if {length} > {type_.bound + 1}: raise ValueError")
         self.line(f"{end} = {start} + {length} - 1")
         self.line(f"if b[{end}]: raise ValueError")
         cut = f"b[{start}:{end}]"
@@ -179,15 +180,37 @@ class _Decoder(Emitter):
         """A view of the message."""
         primitive = type_.element
         dtype = np.dtype(np.uint8) if primitive is BOOL else primitive.dtype
-        name = self.block(dtype, primitive.size, primitive.size)
+        if type_.size:
+            name = self.fixed(dtype, type_.size)
+        else:
+            name = self.block(dtype, primitive.size, primitive.size, type_)
         if primitive is BOOL:
             self.line(f"{name} = {self.constant(flags)}({name})")
         return name
 
-    def block(self, dtype: np.dtype[Any], size: int, alignment: int) -> str:
+    def fixed(self, dtype: np.dtype[Any], count: int) -> str:
+        """A known number of elements in numpy's memory layout."""
+        size, name = dtype.itemsize, self.name("a")
+        self.start()
+        if not self.is_aligned(size):
+            if self.at is None:
+                self.line(f"o += {self.origin} - o & {size - 1}")
+                self.multiple = size
+            else:
+                self.skip(padding(self.at, size))
+        start = self.start()
+        self.line(f"{name} = ndarray({count}, {self.constant(dtype)}, b, {start})")
+        self.skip(count * size)
+        return name
+
+    def block(
+        self, dtype: np.dtype[Any], size: int, alignment: int, type_: Array | None = None
+    ) -> str:
         """A count, and as many elements in numpy's memory layout."""
         count, name = self.number("I"), self.name("a")
         start = self.start()
+        if type_:
+            self.limit(type_, count)
         if alignment == 8:
             self.settle()
             start = "o"
@@ -217,8 +240,11 @@ class _Decoder(Emitter):
 
     def sequence(self, type_: Sequence) -> str:
         """A list. It grows with the decoded elements, independent of the transmitted count."""
-        count, name = self.number("I"), self.name("q")
+        count = str(type_.size) if type_.size else self.number("I")
+        name = self.name("q")
         self.flush()
+        if not type_.size:
+            self.limit(type_, count)
         self.line(f"{name} = []")
 
         def body() -> None:

@@ -16,7 +16,12 @@ from typing import Any
 from robocomp_dsl.runtime.codec.source_writer import SourceWriter
 from robocomp_dsl.runtime.data.layout import padding
 
-SIZES = {"x": 1, "?": 1, "B": 1, "h": 2, "i": 4, "I": 4, "f": 4, "q": 8, "d": 8}
+SIZES = {
+    **dict.fromkeys("x?bB", 1),
+    **dict.fromkeys("hH", 2),
+    **dict.fromkeys("iIf", 4),
+    **dict.fromkeys("qQd", 8),
+}
 """Size and alignment of each `struct` letter; x is a padding byte."""
 
 HEADER = 0x0100
@@ -89,6 +94,19 @@ class Emitter(SourceWriter):
             self._unset = True
         self.later.extend(sizes)
         self.multiple = 1
+
+    def skip(self, size: int) -> None:
+        """Advance by a size known now; the position after it stays as known as before."""
+        if self.at is not None:
+            self.at += size
+        else:
+            self.later.append(str(size))
+            self.multiple = min(self.multiple, size & -size)
+
+    def is_aligned(self, alignment: int) -> bool:
+        """Whether the position is known to be a multiple of `alignment`."""
+        known = self.multiple if self.at is None else self.at & -self.at or alignment
+        return known >= alignment
 
     def settle(self) -> None:
         """Update the variable."""

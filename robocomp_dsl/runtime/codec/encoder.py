@@ -23,10 +23,9 @@ from robocomp_dsl.runtime.codec.emitter import HEADER, Emitter
 from robocomp_dsl.runtime.codec.explain import explain
 from robocomp_dsl.runtime.codec.struct_arrays import checker, pack
 from robocomp_dsl.runtime.data.convert import FLAGS, as_array, as_list
-from robocomp_dsl.runtime.data.layout import row_layout
+from robocomp_dsl.runtime.data.layout import padding, row_layout
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
-    STRING,
     Array,
     Dictionary,
     Enum,
@@ -37,6 +36,7 @@ from robocomp_dsl.runtime.data.schema import (
 )
 from robocomp_dsl.runtime.data.struct import Struct
 
+_FILLS = tuple(map(bytes, range(8)))
 _GAPS = (b"", None, None, None, bytes(4))  # padding before numbers of 8 bytes: 0 or 4
 
 
@@ -129,7 +129,7 @@ class _Encoder(Emitter):
             case Primitive():
                 self.primitive(type_, expression)
             case Array():
-                self.array(type_.element.dtype, expression)
+                self.array(type_, expression)
             case Sequence():
                 self.sequence(type_, expression)
             case Dictionary():
@@ -144,18 +144,20 @@ class _Encoder(Emitter):
 
     def primitive(self, type_: Primitive, expression: str) -> None:
         """A number, a bool or a string."""
-        if type_ is STRING:
-            self.text(expression)
+        if type_.is_text:
+            self.text(type_, expression)
         elif type_ is BOOL:
             self.run.append(("?", f"{self.constant(FLAGS)}[{expression}]"))
         else:
             self.run.append((type_.code, expression))
 
-    def text(self, expression: str) -> None:
+    def text(self, type_: Primitive, expression: str) -> None:
         """Length with the NUL, UTF-8; the NUL is packed with the next run."""
         text, length = self.name("s"), self.name("l")
         self.line(f"{text} = {expression}.encode()")
         self.line(f"{length} = len({text})")
+        if type_.bound:
+            self.line(f"if {length} > {type_.bound}: raise ValueError")
         self.run.append(("I", f"{length} + 1"))
         self.flush()
         self.parts.append(text)
@@ -171,15 +173,37 @@ class _Encoder(Emitter):
         for attribute, (_, inner) in zip(type_._names_, type_._fields_, strict=True):
             self.value(inner, f"{name}.{attribute}")
 
-    def array(self, dtype: np.dtype[Any], expression: str) -> None:
+    def array(self, type_: Array, expression: str) -> None:
         """A numpy array; its memory is a piece of the message."""
-        name = self.assigned("a", expression)
+        name, dtype = self.assigned("a", expression), type_.element.dtype
         kind, strides = self.constant(dtype), f"({dtype.itemsize},)"
         self.line(
             f"if {name}.__class__ is not ndarray or {name}.dtype is not {kind}"
             f" or {name}.strides != {strides}: {name} = as_array({name}, {kind})"
         )
-        self.block(name, dtype.itemsize, dtype.itemsize)
+        self.limit(type_, f"len({name})")
+        if type_.size:
+            self.fixed(name, type_.size, dtype.itemsize)
+        else:
+            self.block(name, dtype.itemsize, dtype.itemsize)
+
+    def fixed(self, name: str, count: int, size: int) -> None:
+        """The memory of a fixed array, after the padding that its elements need."""
+        self.flush()
+        if not self.is_aligned(size):
+            if self.at is None:
+                self.settle()
+                gap = self.name("g")
+                self.line(f"{gap} = -p & {size - 1}")
+                self.parts.append(f"{self.constant(_FILLS)}[{gap}]")
+                self.advance(gap)
+                self.multiple = size
+            else:
+                gap_size = padding(self.at, size)
+                self.parts.append(self.constant(_FILLS[gap_size]))
+                self.skip(gap_size)
+        self.parts.append(name)
+        self.skip(count * size)
 
     def struct_array(self, type_: Any, expression: str) -> None:
         """A structured array, copied from memory if wire and memory layout are the same."""
@@ -230,7 +254,11 @@ class _Encoder(Emitter):
         name, item = self.assigned("q", expression), self.name("e")
         items = self.constant(as_list)
         self.line(f"if {name}.__class__ is not list: {name} = {items}({name})")
-        self.count(name)
+        self.limit(type_, f"len({name})")
+        if type_.size:
+            self.flush()
+        else:
+            self.count(name)
         self.spill()
         self.loop(f"for {item} in {name}:", lambda: self.element(type_.element, item))
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from robocomp_dsl.runtime.codec.struct_arrays import bad_element
 from robocomp_dsl.runtime.data.arrays import StructArray
-from robocomp_dsl.runtime.data.convert import as_array, as_list, as_scalar, described
+from robocomp_dsl.runtime.data.convert import as_array, as_list, as_scalar, check_count, described
 from robocomp_dsl.runtime.data.layout import row_layout
 from robocomp_dsl.runtime.data.schema import (
     Array,
@@ -58,9 +58,11 @@ def _check(type_: Type, value: Any, path: str) -> None:
             case Primitive():
                 as_scalar(type_, value)
             case Array():
-                as_array(value, type_.element.dtype)
+                check_count(type_, len(as_array(value, type_.element.dtype)))
             case Sequence():
-                for index, item in enumerate(as_list(value)):
+                items = as_list(value)
+                check_count(type_, len(items))
+                for index, item in enumerate(items):
                     _check(type_.element, item, f"[{index}]")
             case Dictionary():
                 _check_dictionary(type_, value)

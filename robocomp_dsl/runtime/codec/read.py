@@ -16,7 +16,6 @@ from robocomp_dsl.runtime.codec.struct_arrays import bad_element, begin, unpack
 from robocomp_dsl.runtime.data.layout import padding, row_layout
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
-    STRING,
     Array,
     Dictionary,
     Enum,
@@ -53,6 +52,20 @@ def read_number(message: Any, limit: int, what: str) -> int:
     if not 0 <= number < limit:
         raise MalformedMessage(f"{number} is no {what} (below {limit})", "", 4)
     return number
+
+
+def check_length(type_: Array | Sequence, count: int, path: str, offset: int) -> None:
+    """Raise `MalformedMessage` for a number of elements that the type does not have."""
+    if type_.size and count != type_.size:
+        raise MalformedMessage(f"{count} elements instead of {type_.size}", path, offset)
+    if type_.bound and count > type_.bound:
+        raise MalformedMessage(f"{count} elements, more than {type_.bound}", path, offset)
+
+
+def check_text_length(type_: Primitive, size: int, path: str, offset: int) -> None:
+    """Raise `MalformedMessage` for a text of more bytes than the type has."""
+    if type_.bound and size > type_.bound:
+        raise MalformedMessage(f"a text of {size} bytes, longer than {type_.bound}", path, offset)
 
 
 class _Reader:
@@ -102,6 +115,14 @@ class _Reader:
             )
         return count
 
+    def length(self, type_: Array | Sequence, path: str, size: int) -> int:
+        """The number of elements of a sequence; that of a fixed array is not in the message."""
+        if type_.size:
+            return type_.size
+        count = self.count(path, size)
+        check_length(type_, count, path, self.at - 4)
+        return count
+
     def value(self, type_: Type, path: str) -> Any:
         """One value of any type."""
         value: Any
@@ -109,7 +130,7 @@ class _Reader:
             case Primitive():
                 value = self.primitive(type_, path)
             case Array():
-                value = self.array(type_.element, path)
+                value = self.array(type_, path)
             case Sequence():
                 value = self.sequence(type_, path)
             case Dictionary():
@@ -124,8 +145,8 @@ class _Reader:
 
     def primitive(self, type_: Primitive, path: str) -> Any:
         """A number, a bool or a string."""
-        if type_ is STRING:
-            return self.text(path)
+        if type_.is_text:
+            return self.text(type_, path)
         if type_ is BOOL:
             number = self.number("B", path)
             if number > 1:
@@ -133,9 +154,10 @@ class _Reader:
             return bool(number)
         return self.number(type_.code, path)
 
-    def text(self, path: str) -> str:
+    def text(self, type_: Primitive, path: str) -> str:
         """Length, UTF-8, NUL."""
         length = self.number("I", path)
+        check_text_length(type_, length - 1, path, self.at - 4)
         start = self.take(length, path)
         if not length:
             return ""
@@ -167,7 +189,7 @@ class _Reader:
 
     def sequence(self, type_: Sequence, path: str) -> list[Any]:
         """A list; every element has at least one byte."""
-        count = self.count(path, 1)
+        count = self.length(type_, path, 1)
         return [self.value(type_.element, f"{path}[{i}]") for i in range(count)]
 
     def dictionary(self, type_: Dictionary, path: str) -> dict[Any, Any]:
@@ -178,9 +200,10 @@ class _Reader:
             pairs[key] = self.value(type_.value, f"{path}[{index}].value")
         return pairs
 
-    def array(self, primitive: Primitive, path: str) -> Any:
+    def array(self, type_: Array, path: str) -> Any:
         """Numbers: a view of the message, or a copy if the byte order differs."""
-        count = self.count(path, primitive.size)
+        primitive = type_.element
+        count = self.length(type_, path, primitive.size)
         dtype = np.dtype(np.uint8) if primitive is BOOL else primitive.dtype
         start = self.take(count * primitive.size, path, primitive.size) if count else self.at
         array = np.ndarray(count, self.ordered(dtype), self.data, start)

@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from robocomp_dsl.runtime.data.schema import Array, Sequence
+
 MAX_NESTED = 15  # Python rejects more than 20 nested blocks
 
 
@@ -52,6 +54,13 @@ class SourceWriter:
             self.line("pass")
         self.depth -= 1
         self._loops -= 1
+
+    def limit(self, type_: Array | Sequence, count: str) -> None:
+        """Fail for a number of elements that the type does not have."""
+        if type_.size:
+            self.line(f"if {count} != {type_.size}: raise ValueError")
+        elif type_.bound:
+            self.line(f"if {count} > {type_.bound}: raise ValueError")
 
     def compiled(self, head: str, tail: str, name: str) -> Callable[..., Any]:
         """The function `name`, its body within `try`; `tail` follows after a failure."""

@@ -51,6 +51,19 @@ class Component:
     def finalize(self) -> None:
         """Called once at the end; other components can still be called."""
 
+    def deadline_missed(self, port: str, seconds: float) -> None:
+        """Called when a subscribed port has received nothing for longer than its deadline.
+
+        `seconds` since the latest message, or since a publisher is connected. Called once until the
+        next message, by a timer: also when no message comes again.
+        """
+
+    def publisher_lost(self, port: str, publisher: str) -> None:
+        """Called when a publisher (`component.Port`) of a port with `liveliness` ended or hangs."""
+
+    def publisher_alive(self, port: str, publisher: str) -> None:
+        """Called when a publisher of a port with `liveliness` appears, or is alive again."""
+
     def declare_emergency(self, reason: str) -> None:
         """Enter an emergency: `compute` is not called until `end_emergency`."""
         self._lifecycle.declare_emergency(reason)

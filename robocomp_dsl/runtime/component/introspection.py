@@ -32,6 +32,7 @@ from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import CalledPort, ComponentSpec, ServedPort
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.statistics import Statistics as RunStatistics
+from robocomp_dsl.runtime.connection.connections_interface import COMPONENTCONNECTIONS
 from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA, Schema
 from robocomp_dsl.runtime.parameters import ParameterRejected, Parameters
 
@@ -49,12 +50,15 @@ class InspectedRunner(Protocol):
 
     name: str
     spec: ComponentSpec
-    settings: RunSettings
     params: Parameters
     lifecycle: Lifecycle
     statistics: RunStatistics
     callback_group: CallbackGroup
     started: float
+
+    @property
+    def settings(self) -> RunSettings:
+        """The settings in force."""
 
     @property
     def worker(self) -> object:
@@ -107,7 +111,7 @@ class Introspection:
         for attribute in _PORT_ROLES.values():
             for port in getattr(self._runner.spec, attribute):
                 yield getattr(port, "interface", None) or port.proxy.INTERFACE
-        yield from (COMPONENT, COMPONENTSCHEMA)
+        yield from (COMPONENT, COMPONENTSCHEMA, COMPONENTCONNECTIONS)
 
     def _documentation_files(self) -> Iterator[Path]:
         """`interfaces.json` of the generated package, and those of the runtime's interfaces."""
@@ -118,6 +122,7 @@ class Introspection:
         runtime = Path(__file__).parents[1]
         yield runtime / "component" / "component_interface.json"
         yield runtime / "dynamic" / "schema_interface.json"
+        yield runtime / "connection" / "connections_interface.json"
         yield runtime / "time" / "clock_interface.json"
 
     def get_info(self) -> ComponentInfo:

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.thread_priority import ThreadPriority
 from robocomp_dsl.runtime.component.user_errors import describe_error
 
 
@@ -25,6 +26,7 @@ class LeaderFollowerQueue:
     `take` blocks, and raises `closed_error` when the queue is closed. Errors of user code are
     handled by `handle`. Anything that it or `take` raises nevertheless is a fault of the runtime:
     it goes to `fail`, which ends the component; no other thread waits for the one that died.
+    `priority` is that of the threads.
     """
 
     def __init__(
@@ -35,8 +37,10 @@ class LeaderFollowerQueue:
         execution: CallbackGroup,
         fail: Callable[[str], None],
         closed_error: type[Exception] = QueueClosed,
+        priority: ThreadPriority | None = None,
     ) -> None:
         self._closed_error = closed_error
+        self._priority = priority
         self._name = name
         self._take = take
         self._handle = handle
@@ -57,6 +61,8 @@ class LeaderFollowerQueue:
 
     def _run(self) -> None:
         me = threading.get_ident()
+        if self._priority:
+            self._priority.start_thread()
         self._execution.on_release(self._hand_off)
         try:
             self._handle_jobs(me)
@@ -104,6 +110,11 @@ class LeaderFollowerQueue:
             if not self._waiting_followers and not self._closed:
                 self._start()
         self._leader_lock.release()
+
+    @property
+    def threads(self) -> list[threading.Thread]:
+        """All threads that were started."""
+        return list(self._threads)
 
     @property
     def is_running(self) -> bool:

@@ -19,8 +19,8 @@ from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.component import Component
 from robocomp_dsl.runtime.component.component_interface import COMPONENT
+from robocomp_dsl.runtime.component.connections_servant import ConnectionsServant
 from robocomp_dsl.runtime.component.hang_report import HangReport
-from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.component.introspection import Introspection
 from robocomp_dsl.runtime.component.lifecycle import (
     SLOT_TIMEOUT_S,
@@ -29,20 +29,22 @@ from robocomp_dsl.runtime.component.lifecycle import (
 )
 from robocomp_dsl.runtime.component.sd_notify import SystemdNotifier
 from robocomp_dsl.runtime.component.settings import RunSettings
+from robocomp_dsl.runtime.component.shown_parameters import ShownParameters
 from robocomp_dsl.runtime.component.spec import CalledPort, ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.supervisor_pipe import SupervisorPipe
 from robocomp_dsl.runtime.component.user_errors import add_user_folder, describe_error, log_error
 from robocomp_dsl.runtime.component.watchdog import CallbackWatchdog
+from robocomp_dsl.runtime.component.wiring import Wiring
 from robocomp_dsl.runtime.connection.component_ports import open_ports
-from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
+from robocomp_dsl.runtime.connection.connections_interface import COMPONENTCONNECTIONS
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.monitor_setup import load_monitors, monitored_ports
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.parameters import Parameters
 from robocomp_dsl.runtime.time.clock_factory import ComponentHandle, create_clock
-from robocomp_dsl.runtime.time.clock_interface import CLOCK
 
 INTERRUPT_TIMEOUT_S = 1.0
 """Time after a stop request before waiting calls are interrupted."""
@@ -70,8 +72,8 @@ class Runner:
         clock: Clock | None = None,
     ) -> None:
         self.spec = component.SPEC
-        self.settings = settings
         self.name = settings.full_name(self.spec.name)
+        self.wiring = Wiring(self.name, self.spec, settings)
         self.params = params
         self.statistics = Statistics()
         self.callback_group = CallbackGroup(self.spec.threads)
@@ -81,6 +83,7 @@ class Runner:
         self._failed = False
         self._stop_requests: SimpleQueue[None] = SimpleQueue()
         self._ended = threading.Event()
+        self.wiring.check_qos()
         self.monitors = load_monitors(self.spec, settings)
         host = ComponentContext(
             self.name,
@@ -90,8 +93,10 @@ class Runner:
             settings.listen_port,
             fail=self.fail,
             unique_name=True,
-            addresses=settings.addresses,
+            addresses=settings.visible_addresses(p.name for p in self.spec.implements),
             transport_settings=settings.transport_settings,
+            parameters=ShownParameters(params, self.callback_group),
+            call_hook=self._call_hook,
         )
         self.ports = open_ports(
             settings.middleware or self.spec.middleware,
@@ -132,6 +137,10 @@ class Runner:
             else None
         )
 
+    def _call_hook(self, hook: str, *arguments: object) -> None:
+        """Call a hook of the user's class for an event of a connection."""
+        getattr(self.worker, hook)(*arguments)
+
     def _watchdog_limit(self) -> float:
         """The time in s that a callback may take; 0.0: no limit.
 
@@ -164,51 +173,34 @@ class Runner:
         worker._request_stop = self.stop
         for port in (*self.spec.requires, *self.spec.publishes):
             publishes = port in self.spec.publishes
-            at = self._endpoint(port, port.proxy.INTERFACE, outgoing=not publishes)
+            at = self.wiring.endpoint(port)
             link = self._ports.advertise(at) if publishes else self._ports.proxy(at)
             setattr(worker, port.attribute, port.proxy(link))
         self.params.bind(worker)
         return worker
 
-    def _endpoint(
-        self, port: ServedPort | CalledPort, interface: Interface, *, outgoing: bool = False
-    ) -> Endpoint:
-        """The endpoint of a port; an outgoing port keeps its name, and a remap names its peers."""
-        settings = self.settings
-        return Endpoint(
-            interface,
-            self.name,
-            port.name if outgoing else settings.remaps.get(port.name, port.name),
-            settings.peers_of(port.name) if outgoing else (),
-            settings.qos.get(port.name, Qos()),
-            # All components share the clock, whatever their middlewares are.
-            () if interface.name == CLOCK.name else self.middlewares_of(port),
-            settings.external_records(port.name, self.spec.role_of_peers(port), interface.name),
-        )
+    @property
+    def settings(self) -> RunSettings:
+        """The settings in force; connections may change while the component runs."""
+        return self.wiring.settings
 
     def middlewares_of(self, port: ServedPort | CalledPort) -> tuple[str, ...]:
         """The middlewares of a port, in order of preference."""
-        return self.settings.middlewares_of(port.name, port.middlewares, self.spec.middleware)
+        return self.wiring.middlewares_of(port)
 
     def _open(self) -> None:
         """Serve and subscribe all ports."""
         for port in self.spec.implements:
             self._serve(port, self._ports.serve)
         for port in self.spec.subscribes:
-            self._serve(port, self._ports.subscribe, outgoing=True)
+            self._serve(port, self._ports.subscribe)
         self._clock_binding.open()
 
-    def _serve(
-        self, port: ServedPort, serve: Callable[..., Any], *, outgoing: bool = False
-    ) -> None:
+    def _serve(self, port: ServedPort, serve: Callable[..., Any]) -> None:
         handlers: dict[str, OperationCallable] = {
             operation: getattr(self.worker, method) for operation, method in port.methods.items()
         }
-        serve(
-            self._endpoint(port, port.interface, outgoing=outgoing),
-            handlers,
-            self.callback_group,
-        )
+        serve(self.wiring.endpoint(port), handlers, self.callback_group)
 
     def start(self) -> None:
         """Serve the interface `Component` and start the lifecycle thread."""
@@ -218,6 +210,9 @@ class Runner:
         # An interface of its own: a new operation in `Component` would change its type hash.
         at = Endpoint(COMPONENTSCHEMA, self.name, "Component")
         self.ports.serve(at, introspection.schema_handlers(), introspection.callback_group)
+        at = Endpoint(COMPONENTCONNECTIONS, self.name, "Component")
+        servant = ConnectionsServant(self)
+        self.ports.serve(at, servant.handlers(), introspection.callback_group)
         self._thread.start()
         if self.watchdog:
             self.watchdog.start()

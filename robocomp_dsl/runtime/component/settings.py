@@ -1,18 +1,19 @@
 """Run settings of one component, parsed from the command line.
 
-In: items such as `laser=base1` and `laser=best_effort,depth=1`. Out: `RunSettings`.
+In: items such as `laser=base1` and `laser=front`. Out: `RunSettings`.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from robocomp_dsl.runtime.component.invalid_setting import InvalidSetting
 from robocomp_dsl.runtime.component.naming import ANY, resolve_name
-from robocomp_dsl.runtime.connection.endpoint import Qos
+from robocomp_dsl.runtime.connection.endpoint import NOBODY, Qos
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.time.clock_settings import ClockSettings
 
@@ -27,11 +28,6 @@ EXTERNAL = re.compile(
 )
 MAX_PREFIX_DEPTH = 8
 """Maximum depth of nested namespaces."""
-PRIORITIES = ("background", "low", "normal", "high", "realtime")
-
-
-class InvalidSetting(ValueError):
-    """An invalid setting; the message shows the valid form."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +47,8 @@ class RunSettings:
     renames ports: a served port is visible under the new name, any other port looks for it.
     `port_middlewares` are the choices for single ports; `external` are their peers that are no
     components. `addresses` of own ports are by middleware and port, `transport_settings` by
-    middleware and key. `watchdog` in s: see `ComponentSpec`; None: as there.
+    middleware and key. `peer_qos` is by port and peer. `watchdog` in s: see
+    `ComponentSpec`; None: as there.
     """
 
     name: str = ""
@@ -63,6 +60,7 @@ class RunSettings:
     overrides: tuple[str, ...] = ()
     connections: dict[str, tuple[str, ...]] = field(default_factory=dict)
     qos: dict[str, Qos] = field(default_factory=dict)
+    peer_qos: dict[str, dict[str, Qos]] = field(default_factory=dict)
     remaps: dict[str, str] = field(default_factory=dict)
     external: dict[str, tuple[ExternalPeer, ...]] = field(default_factory=dict)
     addresses: dict[tuple[str, str], str] = field(default_factory=dict)
@@ -95,8 +93,21 @@ class RunSettings:
         usual = (self.middleware,) if self.middleware else marked
         return tuple(dict.fromkeys((*(chosen or usual or (default,)), *external)))
 
+    def visible_addresses(self, served: Iterable[str]) -> dict[tuple[str, str], str]:
+        """The addresses of own ports by middleware and by the names that others see.
+
+        `served` are the ports that a remap renames.
+        """
+        names = {port: self.remaps.get(port, port) for port in served}
+        return {
+            (middleware, names.get(port, port)): address
+            for (middleware, port), address in self.addresses.items()
+        }
+
     def peers_of(self, port: str) -> tuple[str, ...]:
         """The peers that an outgoing port is connected to, by full names."""
+        if self.connections.get(port) == (NOBODY,):
+            return (NOBODY,)
         name = self.remaps.get(port)
         peers = self.connections.get(port, (f"{ANY}.{name}",) if name else ())
         names = (resolve_name(self.prefix, peer) for peer in peers)
@@ -104,6 +115,11 @@ class RunSettings:
             peer_name if not name or "." in peer_name.rpartition("/")[2] else f"{peer_name}.{name}"
             for peer_name in names
         )
+
+    def connection_qos(self, port: str) -> tuple[tuple[str, Qos], ...]:
+        """The quality of service of single connections of a port, by full names of peers."""
+        items = self.peer_qos.get(port, {})
+        return tuple((resolve_name(self.prefix, peer), qos) for peer, qos in items.items())
 
 
 def parse_name(text: str, kind: str) -> str:
@@ -224,39 +240,3 @@ def parse_connections(texts: Iterable[str]) -> dict[str, tuple[str, ...]]:
             )
         parsed[port] = (*parsed.get(port, ()), parse_peer(peer))
     return parsed
-
-
-def parse_qos(texts: Iterable[str]) -> dict[str, Qos]:
-    """`PORT=best_effort,depth=1,priority=high,deadline=40` (ms). Raises `InvalidSetting`.
-
-    `PORT/PEER=…` is the quality of service of one connection; its key is `PORT/PEER`.
-    """
-    parsed: dict[str, Qos] = {}
-    for text in texts:
-        port, separator, items = text.partition("=")
-        if not separator or not port:
-            raise InvalidSetting(
-                f"`{text}` is not a quality of service; write PORT=reliable,depth=10"
-            )
-        for word in filter(None, items.split(",")):
-            parsed[port] = _with_qos_item(parsed.get(port, Qos()), word)
-    return parsed
-
-
-def _with_qos_item(qos: Qos, word: str) -> Qos:
-    key, _, value = word.partition("=")
-    if word in ("reliable", "best_effort"):
-        return replace(qos, reliable=word == "reliable")
-    if key == "priority" and value in PRIORITIES:
-        return replace(qos, priority=value)
-    try:
-        if key == "depth" and int(value) > 0:
-            return replace(qos, depth=int(value))
-        if key == "deadline" and float(value) > 0:
-            return replace(qos, deadline=float(value) / 1000)
-    except ValueError:
-        pass
-    raise InvalidSetting(
-        f"`{word}` is not a quality of service; valid items: reliable, best_effort, depth=N,"
-        f" deadline=MS, and priority= with one of {', '.join(PRIORITIES)}"
-    )

@@ -40,7 +40,10 @@ class Durations:
 
 @dataclass(slots=True)
 class OperationCounts:
-    """Counts of one operation of one port. `durations`: call to reply, or of the handler."""
+    """Counts of one operation of one port. `durations`: call to reply, or of the handler.
+
+    `held`: messages that waited because the queue of the subscriber was full.
+    """
 
     port: str
     operation: str
@@ -51,6 +54,7 @@ class OperationCounts:
     drops: int = 0
     malformed: int = 0
     missed: int = 0
+    held: int = 0
     durations: Durations = field(default_factory=Durations)
 
 

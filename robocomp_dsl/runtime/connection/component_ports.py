@@ -6,27 +6,32 @@ first use.
 
 from __future__ import annotations
 
-import os
 import threading
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.component.statistics import OperationCounts
+from robocomp_dsl.runtime.connection.connection_events import ConnectionEvents
+from robocomp_dsl.runtime.connection.connection_watch import ConnectionWatch
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
+from robocomp_dsl.runtime.connection.latched_messages import LatchedMessages
 from robocomp_dsl.runtime.connection.losses import LossCounter, LossCounters
-from robocomp_dsl.runtime.connection.peer_selection import with_deadline_check
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
+from robocomp_dsl.runtime.connection.qos_merge import connection_qos, sender_qos
+from robocomp_dsl.runtime.connection.qos_support import check_qos
 from robocomp_dsl.runtime.connection.server_selector import ServerSelector
 from robocomp_dsl.runtime.connection.service_channel import ServiceChannel
+from robocomp_dsl.runtime.connection.serving_port import ServingPort
+from robocomp_dsl.runtime.connection.subscribed_port import SubscribedPort
 from robocomp_dsl.runtime.connection.topic_channel import PublishedPort, TopicChannel
+from robocomp_dsl.runtime.connection.usable_records import is_usable
 from robocomp_dsl.runtime.middleware import registry
-from robocomp_dsl.runtime.middleware.capabilities import Capabilities
 from robocomp_dsl.runtime.middleware.transport import (
-    PortServer,
+    Publisher,
     ServiceClient,
-    Subscription,
     Transport,
     TransportContext,
 )
@@ -72,10 +77,16 @@ class ComponentPorts:
         self.presence = presence
         self._transports: dict[str, Transport] = {}
         self._lock = threading.Lock()
-        self._opened: list[tuple[PortRecord, PortServer | Subscription | None]] = []
-        self._served: list[IncomingPort] = []
-        self._channels: list[ServiceChannel | TopicChannel] = []
+        self._incoming: list[IncomingPort] = []
+        self.servers: list[ServingPort] = []
+        self.subscribed: list[SubscribedPort] = []
+        self.channels: list[ServiceChannel] = []
+        self.topics: list[TopicChannel] = []
         self._losses: LossCounters | None = None
+        self.events = ConnectionEvents(
+            context.component, context.callback_group, context.call_hook, context.fail
+        )
+        self.watch = ConnectionWatch(presence, self.events, context.component)
 
     def transport(self, name: str) -> Transport:
         """The transport of a middleware, opened on first use. Raises as `open_ports`."""
@@ -96,57 +107,64 @@ class ComponentPorts:
             {port: at for (of, port), at in context.addresses.items() if of == name},
             {key: value for (of, key), value in context.transport_settings.items() if of == name},
             self.presence,
+            context.parameters,
         )
 
     def serve(
         self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
     ) -> None:
         """See `Ports`."""
-        for middleware in self._middlewares(at):
-            port = self._served_port(at, handlers, execution)
-            server = self.transport(middleware).serve(port)
-            self._declare("server", at, middleware, server.address, server)
+        check_qos(at, "server", self.middlewares(at))
+        served = ServingPort(self, at, handlers, execution)
+        served.open()
+        self.servers.append(served)
 
     def subscribe(
-        self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
+        self,
+        at: Endpoint,
+        handlers: Mapping[str, OperationCallable],
+        execution: CallbackGroup,
+        *,
+        is_start: bool = True,
     ) -> None:
-        """See `Ports`."""
-        if at.qos.deadline:
-            handlers = {
-                name: with_deadline_check(
-                    handler, at.qos.deadline, self._context.statistics.of(at.port, name)
-                )
-                for name, handler in handlers.items()
-            }
-        for middleware in self._subscribed_middlewares(at):
-            numbered = registry.capabilities_of(middleware).sequence_numbers
-            port = self._served_port(at, handlers, execution, count_losses=numbered)
-            subscription = self.transport(middleware).subscribe(port)
-            self._declare("subscriber", at, middleware, subscription.address, subscription)
+        """See `Ports`; for `is_start` see `LossCounters.add`."""
+        check_qos(at, "subscriber", self.middlewares(at))
+        subscribed = SubscribedPort(self, at, handlers, execution)
+        self.subscribed.append(subscribed)
+        subscribed.update(at, is_start=is_start)
         self.presence.registry.warn_on_mismatch(
             "publisher", at.interface.name, at.interface.hash.hex(), at.component
         )
 
-    def _served_port(
+    def incoming_port(
         self,
         at: Endpoint,
         handlers: Mapping[str, OperationCallable],
         execution: CallbackGroup,
         *,
         count_losses: bool = False,
+        is_start: bool = True,
     ) -> IncomingPort:
+        """A port for a transport; `is_start`: see `LossCounters.add`."""
         context = self._context
         losses = self._loss_counters() if count_losses else None
 
         def counter(counts: OperationCounts) -> LossCounter:
             assert losses is not None  # noqa: S101 - only called if there are counters
-            return losses.add(at, counts, execution)
+            return losses.add(at, counts, execution, is_start=is_start)
 
         port = IncomingPort(
             at, handlers, execution, context.statistics, context.fail, counter if losses else None
         )
-        self._served.append(port)
+        self._incoming.append(port)
         return port
+
+    def forget(self, port: IncomingPort) -> None:
+        """A port has been closed while the component runs."""
+        self._incoming.remove(port)
+        for operation in port.operations.values():
+            if operation.losses and self._losses:
+                self._losses.remove(operation.losses)
 
     def _loss_counters(self) -> LossCounters | None:
         publishers = self.presence.publishers()
@@ -157,64 +175,50 @@ class ComponentPorts:
 
     def proxy(self, at: Endpoint) -> ServiceChannel:
         """See `Ports`."""
+        check_qos(at, "client", at.middlewares)
         registry_ = self.presence.registry
-
-        def is_usable(record: PortRecord) -> bool:
-            return self._is_usable(at, record)
-
         selector = ServerSelector(at, registry_, self._context.callback_group, is_usable)
         channel = ServiceChannel(self._context, registry_, selector, self._connect)
-        self._channels.append(channel)
+        self.channels.append(channel)
         return channel
 
     def _connect(self, at: Endpoint, server: PortRecord, timeout: float) -> ServiceClient:
+        at = replace(at, qos=connection_qos(at, server.name), peer_qos=())
         return self.transport(server.middleware).connect(at, server, timeout)
-
-    def _is_usable(self, at: Endpoint, record: PortRecord) -> bool:
-        """Whether this port can be connected to a server or publisher."""
-        if at.middlewares and record.middleware not in at.middlewares:
-            return False
-        capabilities = registry.known_capabilities(record.middleware)
-        return capabilities is not None and _is_reachable(record, capabilities)
 
     def advertise(self, at: Endpoint) -> TopicChannel:
         """See `Ports`."""
+        names = self.middlewares(at)
+        check_qos(at, "publisher", names)
         ports = []
-        for middleware in self._middlewares(at):
+        for middleware in names:
             capabilities = registry.capabilities_of(middleware)
             numbers = (
                 self.presence.number_publications(at) if capabilities.sequence_numbers else None
             )
-            publisher = self.transport(middleware).advertise(at)
+            publisher = self.publisher(middleware, at)
             ports.append(PublishedPort(middleware, capabilities, publisher, numbers))
-            self._declare("publisher", at, middleware, publisher.address, None)
+        latched = LatchedMessages(at, self.presence) if sender_qos(at).latched else None
+        self.presence.answer_probes()
+        channel = TopicChannel(self._context, self.presence.registry, at, ports, latched)
+        for port in ports:
+            record = self.declare("publisher", at, port.middleware, port.publisher.address)
+            channel.records.append(record)
         self.presence.registry.warn_on_mismatch(
             "subscriber", at.interface.name, at.interface.hash.hex(), at.component
         )
-        channel = TopicChannel(self._context, self.presence.registry, at, ports)
-        self._channels.append(channel)
+        self.topics.append(channel)
         return channel
 
-    def _middlewares(self, at: Endpoint) -> tuple[str, ...]:
+    def publisher(self, middleware: str, at: Endpoint) -> Publisher:
+        """The publisher of a port on a middleware: of all its connections together."""
+        return self.transport(middleware).advertise(replace(at, qos=sender_qos(at), peer_qos=()))
+
+    def middlewares(self, at: Endpoint) -> tuple[str, ...]:
+        """The middlewares of a served or published port."""
         return at.middlewares or (self.presence.house,)
 
-    def _subscribed_middlewares(self, at: Endpoint) -> Iterable[str]:
-        """Of a port that names none: those of the publishers that are known, or the house's."""
-        if at.middlewares:
-            return at.middlewares
-        found = self.presence.registry.find("publisher", at.interface.name)
-        used = [r.middleware for r in found if r.name in at.peers or r.component in at.peers]
-        usable = [name for name in used if registry.known_capabilities(name)]
-        return dict.fromkeys(usable or (self.presence.house,))
-
-    def _declare(
-        self,
-        role: str,
-        at: Endpoint,
-        middleware: str,
-        address: str,
-        port: PortServer | Subscription | None,
-    ) -> None:
+    def declare(self, role: str, at: Endpoint, middleware: str, address: str) -> PortRecord:
         """Make a port known; after it was opened, so that it can be used when it is seen."""
         record = PortRecord(
             role,
@@ -226,10 +230,10 @@ class ComponentPorts:
             address,
             at.peers if role == "subscriber" else (),
         )
-        self._opened.append((record, port))
         if role == "subscriber" and at.external and not at.peers:
-            return  # connected to external programs only: no component publishes to it
+            return record  # connected to external programs only: no component publishes to it
         self.presence.declare(record)
+        return record
 
     def find_servers(self, interface: Interface, timeout: float) -> list[str]:
         """See `Ports`."""
@@ -246,31 +250,27 @@ class ComponentPorts:
     def close(self) -> None:
         """See `Ports`."""
         self.interrupt()
-        opened, self._opened = self._opened, []
-        for record, _ in opened:
-            self.presence.withdraw(record)
-        for _, port in opened:
-            if port:
-                port.close()
-        served, self._served = self._served, []
-        for incoming in served:
+        self.watch.close()
+        self.events.close()
+        opened: list[ServingPort | SubscribedPort] = [*self.servers, *self.subscribed]
+        topics, channels = self.topics, self.channels
+        self.servers, self.subscribed, self.topics, self.channels = [], [], [], []
+        for port in (*opened, *topics):
+            port.withdraw(self.presence)
+        for each in opened:
+            each.close()
+        incoming_ports, self._incoming = self._incoming, []
+        for incoming in incoming_ports:
             incoming.join(0.5)
         if self._losses:
             self._context.statistics.off_refresh(self._losses.settle)
             self._losses.close()
-        channels, self._channels = self._channels, []
         for channel in channels:
             channel.close()
+        for topic in topics:
+            topic.close()
         with self._lock:
             transports, self._transports = self._transports, {}
         for transport in transports.values():
             transport.close()
         self.presence.close()
-
-
-def _is_reachable(record: PortRecord, capabilities: Capabilities) -> bool:
-    """Whether the port is in this process, or its middleware connects processes.
-
-    The address of a port that only its process can reach starts with the process id.
-    """
-    return capabilities.between_processes or record.address.startswith(f"{os.getpid()}-")

@@ -19,6 +19,7 @@ from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.component.receiver import LeaderFollowerQueue, QueueClosed
 from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL, OperationCounts, Statistics
+from robocomp_dsl.runtime.component.thread_priority import ThreadPriority
 from robocomp_dsl.runtime.component.user_errors import log_failure
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import OperationCallable
@@ -107,6 +108,13 @@ class IncomingOperation:
 
         return handle
 
+    def handle_unless(self, skip: Callable[[], bool], arguments: tuple[Any, ...]) -> None:
+        """Pass arguments to the handler unless `skip()` is true in the callback group."""
+        with self._port.callback_group:
+            if not skip():
+                self.counts.calls += 1
+                self._handler(*arguments)
+
     def report(self, error: BaseException) -> None:
         """Count and log a message that failed: malformed, or its handler or result failed.
 
@@ -155,6 +163,7 @@ class IncomingPort:
                     operation, handlers[operation.name], self, counter
                 )
         self._receivers: list[LeaderFollowerQueue] = []
+        self.thread_priority = ThreadPriority(at.name, at.qos.thread_priority)
 
     @property
     def interface(self) -> Interface:
@@ -174,12 +183,29 @@ class IncomingPort:
         """
         name = f"{self.at.component}.{self.at.port}"
         receiver = LeaderFollowerQueue(
-            name, take, handle, self.callback_group, self.fail, closed_error
+            name,
+            take,
+            handle,
+            self.callback_group,
+            self.fail,
+            closed_error,
+            self.thread_priority,
         )
         # Some transports have one for each connection: forget those that have ended.
         running = [each for each in self._receivers if each.is_running]
         self._receivers = [*running, receiver]
         return receiver
+
+    def count_held(self) -> None:
+        """Count a message that found its queue full."""
+        for operation in self.operations.values():
+            operation.counts.held += 1
+            return
+
+    def set_thread_priority(self, priority: int | None) -> bool:
+        """Change the priority of the receiving threads; returns whether it is in force."""
+        threads = [thread for receiver in self._receivers for thread in receiver.threads]
+        return self.thread_priority.change(priority, threads)
 
     def join(self, timeout: float) -> None:
         """Wait until the threads have ended, at most `timeout` s for each."""

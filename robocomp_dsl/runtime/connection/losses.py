@@ -37,10 +37,23 @@ class LossCounters:
         self._counters: list[LossCounter] = []
         self._closed = threading.Event()
 
-    def add(self, at: Endpoint, counts: OperationCounts, group: CallbackGroup) -> LossCounter:
-        """A new counter for an operation of `at`, which is subscribed to from now on."""
-        self._counters.append(LossCounter(at, counts, self._publishers, group))
-        return self._counters[-1]
+    def add(
+        self, at: Endpoint, counts: OperationCounts, group: CallbackGroup, *, is_start: bool = True
+    ) -> LossCounter:
+        """A new counter for an operation of `at`, which is subscribed to from now on.
+
+        `is_start` is false for a connection that is made while the component runs: the messages of
+        a publisher that is known count from the first that arrives.
+        """
+        counter = LossCounter(at, counts, self._publishers, group, is_start=is_start)
+        self._counters.append(counter)
+        return counter
+
+    def remove(self, counter: LossCounter) -> None:
+        """The operation is subscribed to no longer."""
+        counter.process()
+        if counter in self._counters:
+            self._counters.remove(counter)
 
     def settle(self) -> None:
         """Ask all publishers for their numbers, and count what did not arrive in the end."""
@@ -71,8 +84,11 @@ class LossCounter:
         counts: OperationCounts,
         publishers: PublisherRegistry,
         execution: CallbackGroup,
+        *,
+        is_start: bool = True,
     ) -> None:
         self._at = at
+        self._is_start = is_start
         self._counts = counts
         self._operation = keys.escape_chunk(counts.operation)
         self._publishers = publishers
@@ -87,6 +103,13 @@ class LossCounter:
     def calls(self) -> int:
         """Messages that have been passed to the handler."""
         return self._counts.calls
+
+    def has_arrived(self, publisher: int, number: int) -> bool:
+        """Whether the message of a publisher with this number, or a later one, has arrived."""
+        with self._lock:
+            self._process()
+            tracker = self._trackers.get(publisher)
+            return tracker is not None and tracker.next > number
 
     def process(self) -> None:
         """Evaluate the attachments that have arrived."""
@@ -135,6 +158,9 @@ class LossCounter:
         """The number from which the messages of a publisher count; None if not known yet."""
         if created > self._subscribed:
             return 0
+        if not self._is_start:
+            tracker = self._trackers.get(publisher)
+            return tracker.first if tracker else None
         return self._publishers.counts_at_discovery.get((publisher, self._operation))
 
     def settle(self, current: Iterable[PublishedCount], calls_before: int) -> None:

@@ -19,7 +19,7 @@ from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.user_errors import add_user_folder, describe_error
 from robocomp_dsl.runtime.connection.monitor import Monitor
 from robocomp_dsl.runtime.connection.monitor_settings import MonitorSettings
-from robocomp_dsl.runtime.data.schema import BOOL, DOUBLE, FLOAT, STRING, Primitive, Type
+from robocomp_dsl.runtime.data.schema import BOOL, DOUBLE, FLOAT, Primitive, Type
 from robocomp_dsl.runtime.errors import MonitorError
 
 
@@ -83,6 +83,6 @@ def _python_type(type_: Type) -> str:
         return ""
     if type_ is BOOL:
         return "bool"
-    if type_ is STRING:
+    if type_.is_text:
         return "str"
     return "float" if type_ in {FLOAT, DOUBLE} else "int"

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from robocomp_dsl.monitors.constraint import ConstraintError, parse_constraint
-from robocomp_dsl.runtime.component.settings import InvalidSetting
+from robocomp_dsl.runtime.component.invalid_setting import InvalidSetting
 from robocomp_dsl.runtime.connection.monitor_settings import ConnectionMonitors, MonitorSettings
 
 POSITIONS = ("receiver", "sender", "identify")

@@ -1,4 +1,4 @@
-"""Shared by all middlewares: select the peer of a call, and check deadlines.
+"""Shared by all middlewares: select the peer of a call.
 
 In: endpoints and candidates. Out: one peer, or the error that says why there is none.
 """
@@ -6,9 +6,8 @@ In: endpoints and candidates. Out: one peer, or the error that says why there is
 from __future__ import annotations
 
 import logging
-import time
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from robocomp_dsl.runtime.component.naming import (
     ANY,
@@ -17,9 +16,7 @@ from robocomp_dsl.runtime.component.naming import (
     nearest,
     on_same_branch,
 )
-from robocomp_dsl.runtime.component.statistics import OperationCounts
-from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.connection.ports import OperationCallable
+from robocomp_dsl.runtime.connection.endpoint import NOBODY, Endpoint
 from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
 
 DISCOVERY_TIMEOUT_S = 1.0
@@ -38,7 +35,8 @@ def matches(at: Endpoint, component: str, port: str) -> bool:
         return False
     if component in wired:
         return True
-    return (not wired or f"{ANY}.{port}" in wired) and on_same_branch(at.component, component)
+    any_peer = not wired and not at.external
+    return (any_peer or f"{ANY}.{port}" in wired) and on_same_branch(at.component, component)
 
 
 def eligible_servers(at: Endpoint, found: Sequence[_T], name: Callable[[_T], str]) -> list[_T]:
@@ -66,6 +64,8 @@ def select_server(at: Endpoint, candidates: Sequence[str]) -> str:
     if len(candidates) == 1:
         return candidates[0]
     interface = at.interface.name
+    if at.peers == (NOBODY,):
+        raise NoServer(f"{at.name} is disconnected; connect it: rcdeploy connect")
     if not candidates:
         subject = f"{' or '.join(at.peers)} does not serve" if at.peers else "no component serves"
         raise NoServer(f"{subject} {interface}, which {at.component} requires as {at.port}")
@@ -77,20 +77,3 @@ def select_server(at: Endpoint, candidates: Sequence[str]) -> str:
         f" select one: --connect {at.port}={first}",
         tuple(sorted(candidates)),
     )
-
-
-def with_deadline_check(
-    handler: OperationCallable, deadline: float, counts: OperationCounts
-) -> OperationCallable:
-    """`handler`, counting publications more than `deadline` s after the previous one."""
-    last = 0.0
-
-    def watch(*arguments: Any) -> Any:
-        nonlocal last
-        now = time.monotonic()
-        if last and now - last > deadline:
-            counts.missed += 1
-        last = now
-        return handler(*arguments)
-
-    return watch

@@ -9,12 +9,15 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+
+if TYPE_CHECKING:
+    from robocomp_dsl.runtime.component.shown_parameters import ShownParameters
 
 OperationCallable: TypeAlias = Callable[..., Any]
 log = logging.getLogger("robocomp")
@@ -28,7 +31,9 @@ class ComponentContext:
     when one of its threads dies. `addresses` are chosen by the user: of middleware and port;
     `transport_settings` by middleware and key. `unique_name`: opening fails with
     `MiddlewareError` if another process runs a component of this name in the domain; clients share
-    names.
+    names. `call_hook(name, *arguments)` calls a hook of the user's class for an event of a
+    connection; None: there is no such class. `parameters` are for the tools of middlewares that
+    have parameters.
     """
 
     component: str
@@ -40,6 +45,8 @@ class ComponentContext:
     unique_name: bool = False
     addresses: Mapping[tuple[str, str], str] = field(default_factory=dict)
     transport_settings: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    call_hook: Callable[..., None] | None = None
+    parameters: ShownParameters | None = None
 
 
 class Channel(Protocol):

@@ -54,6 +54,11 @@ class SequenceTracker:
         self._confirmations = 0
 
     @property
+    def first(self) -> int:
+        """The number of the first message."""
+        return self._first
+
+    @property
     def lost(self) -> int:
         """Messages that did not arrive."""
         before = 0 if self.begin is None else max(0, self._first - self.begin)

@@ -32,7 +32,7 @@ class ServerSelector:
         at: Endpoint,
         registry: PortRegistry,
         callback_group: CallbackGroup,
-        is_usable: Callable[[PortRecord], bool],
+        is_usable: Callable[[Endpoint, PortRecord], bool],
     ) -> None:
         self.at = at
         self._registry = registry
@@ -73,6 +73,11 @@ class ServerSelector:
             self._server = server
         self._registry_version = version
         return server
+
+    def update(self, at: Endpoint) -> None:
+        """Select among the peers of `at` from now on."""
+        self.at = at
+        self._server = None
 
     def _candidates(self) -> list[PortRecord]:
         found = self._registry.find("server", self.at.interface.name)
@@ -125,7 +130,7 @@ class ServerSelector:
                 )
 
     def _matches(self, record: PortRecord) -> bool:
-        return matches(self.at, record.component, record.port) and self._is_usable(record)
+        return matches(self.at, record.component, record.port) and self._is_usable(self.at, record)
 
     def _is_nearest(self, record: PortRecord) -> bool:
         return self._matches(record) and discovery_complete(self.at, (record.component,))

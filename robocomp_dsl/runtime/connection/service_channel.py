@@ -48,6 +48,7 @@ class ServiceChannel:
         self._server: PortRecord | None = None
         self._client: ServiceClient | None = None
         self._bound: dict[str, BoundOperation] = {}
+        self._retired: list[ServiceClient] = []
 
     @property
     def timeout(self) -> float:
@@ -63,6 +64,22 @@ class ServiceChannel:
                 self._client.set_timeout(seconds)
         # Bound calls bind again when the version of the registry changes.
         self._registry.invalidate()
+
+    @property
+    def at(self) -> Endpoint:
+        """The port as it is now."""
+        return self._at
+
+    def update(self, at: Endpoint) -> None:
+        """Call the peers of `at` from now on; calls that wait for a reply get it."""
+        with self._lock:
+            self._at = at
+            self._selector.update(at)
+            if self._client:
+                self._retired.append(self._client)
+            self._client = self._server = None
+            self._bound.clear()
+        self._registry.notify()
 
     def bind(self, operation: Operation) -> OperationCallable:
         """See `ports.Channel`."""
@@ -215,4 +232,6 @@ class ServiceChannel:
         with self._lock:
             if self._client:
                 self._client.close()
+            for client in self._retired:
+                client.close()
             self._client = self._server = None

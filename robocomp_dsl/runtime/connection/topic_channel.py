@@ -7,18 +7,20 @@ attached when the port registry changes, by the thread that publishes.
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.latched_messages import LatchedMessages
 from robocomp_dsl.runtime.connection.peer_selection import matches
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.middleware.capabilities import Capabilities
 from robocomp_dsl.runtime.middleware.transport import Publisher
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.port_registry import PortRegistry
-from robocomp_dsl.runtime.presence.presence import PublicationNumbers
+from robocomp_dsl.runtime.presence.presence import Presence, PublicationNumbers
 from robocomp_dsl.runtime.presence.sequence_format import SEQUENCE_FORMAT
 
 
@@ -41,12 +43,17 @@ class TopicChannel:
         registry: PortRegistry,
         at: Endpoint,
         ports: list[PublishedPort],
+        latched: LatchedMessages | None = None,
     ) -> None:
         self.timeout = 0.0
         self._context = context
         self._registry = registry
         self._at = at
         self._ports = ports
+        self._latched = latched
+        self.records: list[PortRecord] = []
+        self._rebind: list[Callable[[], None]] = []
+        self._retired: list[Publisher] = []
         self._attaching = [p for p in ports if p.capabilities.attaches_subscribers]
         self._attached: dict[tuple[str, PortRecord], PublishedPort] = {}
         self._version = -1
@@ -54,8 +61,10 @@ class TopicChannel:
 
     def bind(self, operation: Operation) -> OperationCallable:
         """See `ports.Channel`."""
-        functions = [self._bind_port(port, operation) for port in self._ports]
+        functions = [self._bind_port(i, operation) for i in range(len(self._ports))]
         publish = functions[0] if len(functions) == 1 else _publish_on_all(functions)
+        if self._latched:
+            publish = self._latched.keep(operation, publish, self._ports[0].numbers)
         if not self._attaching:
             return publish
 
@@ -66,18 +75,30 @@ class TopicChannel:
 
         return attach_and_publish
 
-    def _bind_port(self, port: PublishedPort, operation: Operation) -> OperationCallable:
+    def _bind_port(self, index: int, operation: Operation) -> OperationCallable:
+        """The publication on one middleware; `replace_publishers` binds it again."""
+        port = self._ports[index]
         counts = self._context.statistics.of(self._at.port, operation.name)
+        encode: Any
+        send: Any
         encode, send = port.publisher.bind(operation, counts)
         encode = encode or _unchanged
-        if port.numbers is None:
+        numbers = port.numbers
+
+        def rebind() -> None:
+            nonlocal encode, send
+            encode, send = self._ports[index].publisher.bind(operation, counts)
+            encode = encode or _unchanged
+
+        self._rebind.append(rebind)
+        if numbers is None:
 
             def publish_plain(*arguments: Any) -> None:
                 send(encode(arguments), b"")
                 counts.calls += 1
 
             return publish_plain
-        publisher_id, sequence = port.numbers.id, port.numbers.counter(operation.name)
+        publisher_id, sequence = numbers.id, numbers.counter(operation.name)
         pack = SEQUENCE_FORMAT.pack
 
         def publish(*arguments: Any) -> None:
@@ -86,6 +107,40 @@ class TopicChannel:
             counts.calls += 1
 
         return publish
+
+    @property
+    def ports(self) -> list[PublishedPort]:
+        """The port on each of its middlewares."""
+        return self._ports
+
+    @property
+    def is_latched(self) -> bool:
+        """Whether the latest messages are kept."""
+        return self._latched is not None
+
+    @property
+    def at(self) -> Endpoint:
+        """The port as it is now."""
+        return self._at
+
+    def replace_publishers(self, at: Endpoint, publishers: list[Publisher]) -> None:
+        """Publish with others from now on, one for each middleware; messages keep their numbers."""
+        with self._lock:
+            former = [port.publisher for port in self._ports]
+            if self._latched and at.name != self._at.name:
+                self._latched.rename(at)
+            self._at = at
+            for port, publisher in zip(self._ports, publishers, strict=True):
+                port.publisher = publisher
+            for (_, record), port in self._attached.items():
+                port.publisher.attach(record)
+            for rebind in self._rebind:
+                rebind()
+        # A thread may still be publishing with a former one: it is closed with the channel.
+        self._retired += former
+        for publisher in former:
+            for _, record in list(self._attached):
+                publisher.detach(record)
 
     def _attach(self) -> None:
         """Attach the subscribers that have appeared, and detach those that are gone."""
@@ -163,6 +218,11 @@ class TopicChannel:
         found = self._registry.find("subscriber", self._at.interface.name)
         return any(self._is_subscriber(record) for record in found)
 
+    def withdraw(self, presence: Presence) -> None:
+        """Make the port unknown, before it is closed."""
+        for record in self.records:
+            presence.withdraw(record)
+
     def close(self) -> None:
         """End the port on all middlewares."""
         ports, self._ports, self._attaching = self._ports, [], []
@@ -171,6 +231,10 @@ class TopicChannel:
             port.publisher.close()
             if port.numbers:
                 port.numbers.close()
+        for publisher in self._retired:
+            publisher.close()
+        if self._latched:
+            self._latched.close()
 
 
 def _unchanged(arguments: tuple[Any, ...]) -> tuple[Any, ...]:

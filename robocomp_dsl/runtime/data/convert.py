@@ -14,7 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robocomp_dsl.runtime.data.errors import EncodeError
-from robocomp_dsl.runtime.data.schema import BOOL, DOUBLE, FLOAT, STRING, Enum, Primitive
+from robocomp_dsl.runtime.data.schema import (
+    BOOL,
+    DOUBLE,
+    FLOAT,
+    Array,
+    Enum,
+    Primitive,
+    Sequence,
+)
 
 FLAGS = {False: False, True: True}
 """The accepted values of a bool field; by equality also 0, 1 and numpy's bools."""
@@ -66,10 +74,11 @@ def _changed(array: NDArray[Any], result: NDArray[Any]) -> NDArray[np.bool_]:
 
 def _unboxed(array: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
     """Convert an array of Python objects: integers too large for numpy, or other types."""
+    low, high = (0, 2**64) if dtype == np.uint64 else (-(2**63), 2**63)
     for at, item in enumerate(array):
         if not isinstance(item, int | float | np.number | np.bool_):
             raise EncodeError(f"takes numbers ({dtype.name}), not {described(item)}", f"[{at}]")
-        if isinstance(item, int) and not -(2**63) <= item < 2**63:
+        if isinstance(item, int) and not low <= item < high:
             raise EncodeError(f"{item} does not fit into {dtype.name}", f"[{at}]")
     return np.array(array.tolist())
 
@@ -78,8 +87,8 @@ def as_scalar(type_: Primitive | type[Enum], value: Any) -> Any:
     """`value` as a bool, int, float, str or enumerator."""
     if not isinstance(type_, Primitive):
         return _member(type_, value)
-    if type_ is STRING:
-        return _text(value)
+    if type_.is_text:
+        return _text(type_, value)
     if type_ is BOOL:
         return _flag(value)
     if type_ is FLOAT or type_ is DOUBLE:
@@ -87,15 +96,17 @@ def as_scalar(type_: Primitive | type[Enum], value: Any) -> Any:
     return _int(type_, value)
 
 
-def _text(value: Any) -> str:
+def _text(type_: Primitive, value: Any) -> str:
     if not isinstance(value, str):
         raise EncodeError(f"takes a text, not {described(value)}")
     try:
-        value.encode()
+        size = len(value.encode())
     except UnicodeEncodeError as error:
         raise EncodeError(
             f"the character {value[error.start]!r} at {error.start} cannot be sent as UTF-8"
         ) from None
+    if type_.bound and size > type_.bound:
+        raise EncodeError(f"takes at most {type_.bound} bytes of text, not {size}")
     return value
 
 
@@ -112,7 +123,9 @@ def _int(type_: Primitive, value: Any) -> int:
     except TypeError:
         raise EncodeError(f"takes an integer ({type_.name}), not {described(value)}") from None
     bits = 8 * type_.size
-    low, high = (0, 2**8 - 1) if type_.code == "B" else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+    low, high = (
+        (0, 2**bits - 1) if type_.code.isupper() else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+    )
     if not low <= number <= high:
         raise EncodeError(f"{number} does not fit into a {type_.name} ({low} to {high})")
     return number
@@ -140,6 +153,14 @@ def _member(type_: type[Enum], value: Any) -> Enum:
     except ValueError:
         names = ", ".join(type_.__members__)
         raise EncodeError(f"takes a {type_.__name__} ({names}), not {described(value)}") from None
+
+
+def check_count(type_: Array | Sequence, count: int) -> None:
+    """Raise `EncodeError` if a sequence of `count` elements has not the length of its type."""
+    if type_.size and count != type_.size:
+        raise EncodeError(f"takes exactly {type_.size} elements, not {count}")
+    if type_.bound and count > type_.bound:
+        raise EncodeError(f"takes at most {type_.bound} elements, not {count}")
 
 
 def described(value: Any) -> str:

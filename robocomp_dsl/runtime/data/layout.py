@@ -17,7 +17,7 @@ from typing import Any, TypeGuard
 import numpy as np
 
 from robocomp_dsl.runtime.data.per_class_cache import once
-from robocomp_dsl.runtime.data.schema import INT, STRING, Enum, Primitive, Type
+from robocomp_dsl.runtime.data.schema import INT, Enum, Primitive, Type
 from robocomp_dsl.runtime.data.struct import Struct
 
 
@@ -105,7 +105,7 @@ def _leaves(type_: Type, path: tuple[str, ...]) -> Iterator[Leaf]:
 
 def _is_leaf(type_: Type) -> TypeGuard[Primitive | type[Enum]]:
     if isinstance(type_, Primitive):
-        return type_ is not STRING
+        return not type_.is_text
     return isinstance(type_, type) and issubclass(type_, Enum)
 
 

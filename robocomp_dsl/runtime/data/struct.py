@@ -28,12 +28,18 @@ from robocomp_dsl.runtime.data.values import hashed, same, shown
 _EMPTY = object()
 
 
-def default() -> Any:
+class _Items(tuple[Any, ...]):
+    """The elements of a default that is not empty."""
+
+    __slots__ = ()
+
+
+def default(*items: Any) -> Any:
     """The default of a field of type list, dict, array or struct.
 
-    Every new struct gets its own empty object.
+    Every new struct gets its own object: empty, zeros in a fixed array, or with `items`.
     """
-    return _EMPTY
+    return _Items(items) if items else _EMPTY
 
 
 class StructMeta(type):
@@ -160,23 +166,40 @@ def _parameter(
         return name, name
     value = cls._defaults_[name]
     is_plain = isinstance(type_, Primitive) or (isinstance(type_, type) and issubclass(type_, Enum))
-    if is_plain is (value is _EMPTY):
+    if is_plain is (value is _EMPTY or isinstance(value, _Items)):
         right = "a value of its type" if is_plain else "rt.default()"
         raise TypeError(f"{cls.__name__}.{name}: its default must be {right}")
     if is_plain:
         scope[constant] = value
         return f"{name}={constant}", name
-    return f"{name}=None", f"{_empty(type_, constant, scope)} if {name} is None else {name}"
+    if isinstance(value, _Items):
+        fresh = _filled(type_, value, constant, scope)
+    else:
+        fresh = _empty(type_, constant, scope)
+    return f"{name}=None", f"{fresh} if {name} is None else {name}"
+
+
+def _filled(type_: Type, items: _Items, constant: str, scope: dict[str, Any]) -> str:
+    """An expression for a new array or list with `items`."""
+    if isinstance(type_, Array):
+        scope[constant] = np.array(items, type_.element.dtype)
+        return f"{constant}.copy()"
+    scope[constant] = items
+    return f"list({constant})"
 
 
 def _empty(type_: Type, constant: str, scope: dict[str, Any]) -> str:
     """An expression for a new empty object of `type_`."""
     if isinstance(type_, Sequence):
-        return "[]"
+        if not type_.size:
+            return "[]"
+        if isinstance(type_.element, Primitive):
+            return f'[""] * {type_.size}'
+        return f"[{_empty(type_.element, constant, scope)} for _ in range({type_.size})]"
     if isinstance(type_, Dictionary):
         return "{}"
     if isinstance(type_, Array):
         scope[constant] = type_.element.dtype
-        return f"_zeros(0, {constant})"
+        return f"_zeros({type_.size}, {constant})"
     scope[constant] = type_
     return f"{constant}()"

@@ -43,9 +43,9 @@ def type_shape(type_: Type) -> str:
     """`struct{x:double,y:double}`, `sequence<int>` etc."""
     match type_:
         case Primitive():
-            return type_.name
+            return f"{type_.name}<{type_.bound}>" if type_.bound else type_.name
         case Array() | Sequence():
-            return f"sequence<{type_shape(type_.element)}>"
+            return sequence_shape(type_, type_shape(type_.element))
         case Dictionary():
             return f"dictionary<{type_shape(type_.key)},{type_shape(type_.value)}>"
     if issubclass(type_, StructArrayBase):
@@ -53,6 +53,13 @@ def type_shape(type_: Type) -> str:
     if issubclass(type_, StructBase):
         return f"struct{{{_fields(type_._fields_)}}}"
     return f"enum{{{_enumerators(type_)}}}"
+
+
+def sequence_shape(type_: Array | Sequence, element: str) -> str:
+    """`sequence<int>`, `sequence<int,5>` with at most 5 elements, `array<int,5>` with exactly 5."""
+    if type_.size:
+        return f"array<{element},{type_.size}>"
+    return f"sequence<{element},{type_.bound}>" if type_.bound else f"sequence<{element}>"
 
 
 def _fields(fields: Fields) -> str:

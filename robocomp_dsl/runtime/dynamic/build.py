@@ -33,8 +33,12 @@ from robocomp_dsl.runtime.errors import DeclaredError, SchemaError
 
 MAX_LEAVES = 100_000
 """Maximum fields of a type with those of nested types; each is code in a compiled codec."""
+NUMBERS_PER_LEAF = 100
+"""Numbers of a fixed array that count as one field."""
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,199}")
-_QUALIFIED = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,199}(::[A-Za-z_][A-Za-z0-9_]{0,199})?")
+_QUALIFIED = re.compile(
+    r"[A-Za-z_][A-Za-z0-9_]{0,199}(::[A-Za-z_][A-Za-z0-9_]{0,199}|(/[A-Za-z_][A-Za-z0-9_]{0,199}){2})?"
+)
 _ZEROS = {"bool": False, "string": "", "float": 0.0, "double": 0.0}  # others: 0
 
 
@@ -78,12 +82,14 @@ class _TypeBuilder:
         self.types[info.name] = cls
 
     def leaves(self, type_: Type) -> int:
-        """Fields of a value, counting one element of each sequence."""
+        """Fields of a value, counting one element of each sequence without a fixed size."""
         match type_:
-            case Primitive() | Array():
+            case Primitive():
                 return 1
+            case Array():
+                return 1 + type_.size // NUMBERS_PER_LEAF
             case Sequence():
-                return self.leaves(type_.element)
+                return self.leaves(type_.element) * (type_.size or 1)
             case Dictionary():
                 return self.leaves(type_.key) + self.leaves(type_.value)
         if issubclass(type_, StructArray):
@@ -210,4 +216,4 @@ def _check_name(name: str, form: re.Pattern[str], what: str) -> None:
 
 
 def _short(qualified: str) -> str:
-    return qualified.rpartition("::")[2]
+    return re.split("::|/", qualified)[-1]

@@ -14,6 +14,7 @@ from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.data.arrays import StructArray
 from robocomp_dsl.runtime.data.schema import Array, Dictionary, Enum, Primitive, Sequence, Type
 from robocomp_dsl.runtime.data.struct import Struct
+from robocomp_dsl.runtime.data.type_hash import sequence_shape, type_shape
 from robocomp_dsl.runtime.dynamic.documentation import Documentation
 from robocomp_dsl.runtime.dynamic.schema_interface import (
     EnumeratorInfo,
@@ -49,9 +50,9 @@ class _TypeTable:
         """`double`, `sequence<M::T>` and so on."""
         match type_:
             case Primitive():
-                return type_.name
+                return type_shape(type_)
             case Array() | Sequence():
-                return f"sequence<{self.expression(type_.element)}>"
+                return sequence_shape(type_, self.expression(type_.element))
             case Dictionary():
                 return f"dictionary<{self.expression(type_.key)},{self.expression(type_.value)}>"
         if issubclass(type_, StructArray):
@@ -63,7 +64,8 @@ class _TypeTable:
         if cls not in self._names:
             texts = self.documentation.of_type(cls)
             info = _enum(cls, texts) if issubclass(cls, Enum) else self._struct(cls, texts)
-            info.name = self._unused(str(texts.get("name", cls.__name__)))
+            name = getattr(cls, "_type_id_", "") or texts.get("name", cls.__name__)
+            info.name = self._unused(str(name))
             self._names[cls] = info.name
             self.infos.append(info)
         return self._names[cls]

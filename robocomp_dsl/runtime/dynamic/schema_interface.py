@@ -34,7 +34,7 @@ Enumerators = list[EnumeratorInfo]
 class TypeInfo(rt.Struct, type_id="RoboCompComponentSchema::TypeInfo"):
     """A named type. Its fields refer only to types before it."""
 
-    name: rt.String = ""  # `Module::Name`.
+    name: rt.String = ""  # `Module::Name`, or `package/msg/Name` of a ROS type.
     kind: rt.String = ""  # struct, exception or enum.
     doc: rt.String = ""
     fields: Fields = rt.default()

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from robocomp_dsl.runtime.data import schema
@@ -18,20 +19,10 @@ from robocomp_dsl.runtime.errors import SchemaError
 
 MAX_DEPTH = 32
 """Maximum nesting of sequences and dictionaries."""
-PRIMITIVES = {
-    primitive.name: primitive
-    for primitive in (
-        schema.BOOL,
-        schema.BYTE,
-        schema.SHORT,
-        schema.INT,
-        schema.LONG,
-        schema.FLOAT,
-        schema.DOUBLE,
-        schema.STRING,
-    )
-}
-_TOKEN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(?:::[A-Za-z_][A-Za-z0-9_]*)?|[<>,]")
+MAX_LENGTH = 1_000_000
+"""Largest length of a fixed array; its elements are in every value."""
+_NAME = "[A-Za-z_][A-Za-z0-9_]*"
+_TOKEN = re.compile(rf"{_NAME}(?:::{_NAME}|/{_NAME}/{_NAME})?|[<>,]|[1-9][0-9]*")
 NamedTypes = Mapping[str, type[Any]]
 
 
@@ -51,11 +42,17 @@ def _parse(tokens: list[str], types: NamedTypes, text: str, depth: int) -> Type:
     if not depth:
         raise SchemaError(f"`{text:.80}` is nested deeper than {MAX_DEPTH} levels")
     name = tokens.pop() if tokens else ""
-    if name == "sequence":
+    if name in ("sequence", "array"):
         _expect(tokens, "<", text)
         element = _parse(tokens, types, text, depth - 1)
+        length = _length(tokens, text) if name == "array" or tokens[-1:] == [","] else 0
         _expect(tokens, ">", text)
-        return _sequence(element)
+        return _sequence(element, **{"size" if name == "array" else "bound": length})
+    if name == "string" and tokens[-1:] == ["<"]:
+        tokens[-1] = ","
+        length = _length(tokens, text)
+        _expect(tokens, ">", text)
+        return replace(schema.STRING, bound=length)
     if name == "dictionary":
         _expect(tokens, "<", text)
         key = _parse(tokens, types, text, depth - 1)
@@ -66,7 +63,7 @@ def _parse(tokens: list[str], types: NamedTypes, text: str, depth: int) -> Type:
             return Dictionary(key, value)
         except TypeError as error:
             raise SchemaError(f"`{text:.80}` is not a type: {error}") from None
-    found: Type | None = PRIMITIVES.get(name) or types.get(name)
+    found: Type | None = schema.PRIMITIVES.get(name) or types.get(name)
     if found is None:
         raise SchemaError(f"type `{name:.80}` is not defined before its use")
     return found
@@ -77,15 +74,26 @@ def _expect(tokens: list[str], sign: str, text: str) -> None:
         raise SchemaError(f"`{text:.80}` is not a type: `{sign}` is missing")
 
 
-def _sequence(element: Type) -> Type:
+def _length(tokens: list[str], text: str) -> int:
+    """The number after a comma."""
+    _expect(tokens, ",", text)
+    number = tokens.pop() if tokens else ""
+    if not number.isdecimal() or len(number) > len(str(2**32)):
+        raise SchemaError(f"`{text:.80}` is not a type: a length is missing")
+    return int(number)
+
+
+def _sequence(element: Type, size: int = 0, bound: int = 0) -> Type:
     """The sequence that generated code would use: numpy arrays where the layout is fixed."""
-    if isinstance(element, Primitive) and element is not schema.STRING:
-        return Array(element)
-    if isinstance(element, type) and issubclass(element, Struct):
+    if size > MAX_LENGTH:
+        raise SchemaError(f"an array of {size} elements is too long (at most {MAX_LENGTH})")
+    if isinstance(element, Primitive) and not element.is_text:
+        return Array(element, size, bound)
+    if isinstance(element, type) and issubclass(element, Struct) and not (size or bound):
         try:
             row_layout(element)
         except TypeError:  # no fixed size
             return Sequence(element)
         array: type[StructArray[Any]] = array_class(element)
         return array
-    return Sequence(element)
+    return Sequence(element, size, bound)

@@ -25,8 +25,11 @@ class Capabilities:
     `attaches_subscribers`: its publishers must be given each subscriber (`Publisher.attach`);
     others find their subscribers themselves. `sequence_numbers`: publications carry the number with
     which subscribers count losses. `reports_source`: subscribers learn which port published a
-    message. `qos`: the items of `QOS_ITEMS` that it honours. `max_message_bytes` 0: no limit.
+    message. `latches`: it passes latest messages to late subscribers itself; otherwise the
+    connection plane does it, between components. `qos`: the items of `QOS_ITEMS` that it honours.
+    `max_message_bytes` 0: no limit.
     `valid_names`: a regular expression for names of components and ports, empty: any name.
+    `ros_types_only`: it carries messages and services of ROS only, from `.msg` and `.srv` files.
     """
 
     between_processes: bool = True
@@ -38,9 +41,11 @@ class Capabilities:
     attaches_subscribers: bool = False
     sequence_numbers: bool = False
     reports_source: bool = False
+    latches: bool = False
     qos: frozenset[str] = frozenset()
     max_message_bytes: int = 0
     valid_names: str = ""
+    ros_types_only: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +56,8 @@ class MiddlewareDescription:
     `TransportContext` to a `Transport`. `requires` are importable modules without which it cannot
     be opened, and `install` tells how to install them. `configuration` is a function, as
     `module:function`, that adds the connections of RoboComp's configuration keys to the settings of
-    a component; see `middleware.configured`.
+    a component; see `middleware.configured`. `tcp_ports` is a function, as `module:function`, from
+    the address of an own port to the TCP ports of this machine where it listens.
     """
 
     name: str
@@ -61,3 +67,4 @@ class MiddlewareDescription:
     requires: tuple[str, ...] = ()
     install: str = ""
     configuration: str = ""
+    tcp_ports: str = ""

@@ -20,6 +20,7 @@ from robocomp_dsl.runtime.errors import NoServer
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 if TYPE_CHECKING:
+    from robocomp_dsl.runtime.component.shown_parameters import ShownParameters
     from robocomp_dsl.runtime.connection.endpoint import Endpoint
     from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 
@@ -39,7 +40,8 @@ class TransportContext:
     first use by `open_folder` of `presence.domain_folder`. `addresses` are the addresses that the
     user chose for own ports, by port name. `settings` are further settings of this middleware.
     `fail` ends the component as failed, with a reason: a transport calls it when a thread dies.
-    `house` is the open presence, for the transport that shares its connection.
+    `house` is the open presence, for the transport that shares its connection. `parameters` are
+    those of the component, for transports whose tools show and change them; None for a client.
     """
 
     component: str
@@ -49,6 +51,7 @@ class TransportContext:
     addresses: dict[str, str] = field(default_factory=dict)
     settings: dict[str, str] = field(default_factory=dict)
     house: Any = None
+    parameters: ShownParameters | None = None
 
 
 class BoundOperation(NamedTuple):

@@ -8,6 +8,8 @@
     rc/<domain>/s/<component>/<pid>/<state>                          token: this component is alive
     rc/<domain>/a/<component>/<port>/<id>/<created>                  token: a publisher, its id
     rc/<domain>/n/<interface>/<hash>/<component>/<port>/<operation>  number of publications so far
+    rc/<domain>/l/<interface>/<hash>/<component>/<port>/<operation>  latest message of a topic
+    rc/<domain>/h/<component>                                        sign of life of a component
 
 The hash is the type hash of the interface: messages of another version are not routed to a port,
 and the tokens let both sides detect the difference. Every publication has an attachment with a
@@ -23,7 +25,7 @@ from urllib.parse import quote, unquote
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
-Kind = Literal["q", "c", "t", "n"]
+Kind = Literal["q", "c", "t", "n", "l"]
 
 
 def escape_chunk(text: str) -> str:
@@ -45,6 +47,11 @@ def interface_key(domain: str, kind: Kind, at: Endpoint) -> str:
 def port_key(domain: str, kind: Kind, at: Endpoint) -> str:
     """The key of a port, without the operation."""
     return f"{interface_key(domain, kind, at)}/{escape_chunk(at.component)}/{escape_chunk(at.port)}"
+
+
+def heartbeat_key(domain: str, component: str) -> str:
+    """The key at which a component answers that it is alive."""
+    return f"{domain_prefix(domain)}/h/{escape_chunk(component)}"
 
 
 def publisher_of(key: str) -> str:

@@ -73,6 +73,16 @@ class PortRegistry:
         with self._changed:
             self.version += 1
 
+    def notify(self) -> None:
+        """As `invalidate`; also wake all waiting threads."""
+        with self._changed:
+            self._notify()
+
+    def wait_for_change(self, version: int, seconds: float) -> None:
+        """Wait at most `seconds` until the registry has another version."""
+        with self._changed:
+            self._changed.wait_for(lambda: self.version != version or self.closed, max(seconds, 0))
+
     def on_lost(self, record: PortRecord, callback: Callable[[], None]) -> None:
         """Call `callback` once when the port is lost or `interrupt` is called; at once if it is.
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple, Protocol, TypeAlias
 
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.presence.port_record import PortRecord
@@ -19,6 +20,27 @@ class PublicationNumbers(Protocol):
 
     def close(self) -> None:
         """Take back the announcement."""
+
+
+class LatestMessage(NamedTuple):
+    """The latest message of an operation.
+
+    `data` is CDR. `number` are the 16 bytes of `SEQUENCE_FORMAT`; a later message has a higher one.
+    """
+
+    operation: str
+    number: bytes
+    data: bytes
+
+
+LatestMessages: TypeAlias = Callable[[], Iterable[LatestMessage]]
+
+
+class Closeable(Protocol):
+    """Something that ends with `close`."""
+
+    def close(self) -> None:
+        """End it."""
 
 
 class Presence(Protocol):
@@ -48,6 +70,20 @@ class Presence(Protocol):
 
     def publishers(self) -> Any:
         """The `PublisherRegistry` of the domain; None if this presence counts no publications."""
+
+    def answer_probes(self) -> None:
+        """Let other components ask this one for a sign of life; it has publishers."""
+
+    def probe(self, component: str, timeout: float, on_reply: Callable[[], None]) -> None:
+        """Ask a component for a sign of life; `on_reply` is called in any thread, or never."""
+
+    def offer_latest(self, at: Endpoint, latest: LatestMessages) -> Closeable:
+        """Let late subscribers ask for the latest messages of a published port."""
+
+    def fetch_latest(
+        self, at: Endpoint, publisher: PortRecord, on_message: Callable[[LatestMessage], None]
+    ) -> None:
+        """Ask a publisher of `at` for its latest messages; `on_message` is called in any thread."""
 
     def interrupt(self) -> None:
         """Wake all waiting threads; ports count as lost from now on."""

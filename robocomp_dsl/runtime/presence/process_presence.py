@@ -6,11 +6,13 @@ In: a domain. Out: a `Presence` that other processes do not see; nothing is open
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from itertools import count
 
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.port_registry import PortRegistry
+from robocomp_dsl.runtime.presence.presence import LatestMessage, LatestMessages
 
 
 class _Domain:
@@ -20,6 +22,7 @@ class _Domain:
         self.lock = threading.RLock()
         self.records: dict[str, PortRecord] = {}
         self.registries: list[PortRegistry] = []
+        self.latest: dict[tuple[str, str], LatestMessages] = {}
 
 
 _domains: dict[str, _Domain] = {}
@@ -78,6 +81,25 @@ class ProcessPresence:
     def publishers(self) -> None:
         """See `Presence`: losses are counted by the queues of this process."""
 
+    def answer_probes(self) -> None:
+        """See `Presence`: every component of this process is alive."""
+
+    def probe(self, component: str, timeout: float, on_reply: Callable[[], None]) -> None:  # noqa: ARG002
+        """See `Presence`."""
+        on_reply()
+
+    def offer_latest(self, at: Endpoint, latest: LatestMessages) -> OfferedMessages:
+        """See `Presence`."""
+        return OfferedMessages(self._domain.latest, (at.interface.name, at.name), latest)
+
+    def fetch_latest(
+        self, at: Endpoint, publisher: PortRecord, on_message: Callable[[LatestMessage], None]
+    ) -> None:
+        """See `Presence`."""
+        latest = self._domain.latest.get((at.interface.name, publisher.name))
+        for message in latest() if latest else ():
+            on_message(message)
+
     def interrupt(self) -> None:
         """See `Presence`."""
         self.registry.interrupt()
@@ -104,3 +126,23 @@ class ProcessNumbers:
 
     def close(self) -> None:
         """Nothing was announced."""
+
+
+class OfferedMessages:
+    """The latest messages of one published port, which others of the process may ask for."""
+
+    def __init__(
+        self,
+        offered: dict[tuple[str, str], LatestMessages],
+        key: tuple[str, str],
+        latest: LatestMessages,
+    ) -> None:
+        self._offered = offered
+        self._key = key
+        self._latest = latest
+        offered[key] = latest
+
+    def close(self) -> None:
+        """See `Closeable`."""
+        if self._offered.get(self._key) is self._latest:
+            del self._offered[self._key]

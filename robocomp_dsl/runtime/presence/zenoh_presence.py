@@ -14,6 +14,7 @@ import zenoh
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.presence import keys
 from robocomp_dsl.runtime.presence.domain_session import DomainSession, open_session
+from robocomp_dsl.runtime.presence.house_queries import HouseQueries
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.port_registry import PortRegistry
 from robocomp_dsl.runtime.presence.publications import PublicationCounter, PublisherRegistry
@@ -42,6 +43,11 @@ class ZenohPresence:
         self._tokens: dict[PortRecord, zenoh.LivelinessToken] = {}
         self._state: zenoh.LivelinessToken | None = None
         self._publishers: PublisherRegistry | None = None
+        self._queries = HouseQueries(self._session, domain, component)
+        self.answer_probes = self._queries.answer_probes
+        self.probe = self._queries.probe
+        self.offer_latest = self._queries.offer_latest
+        self.fetch_latest = self._queries.fetch_latest
         self._subscriber = self._session.liveliness().declare_subscriber(
             f"{keys.domain_prefix(domain)}/p/**", self._on_token, history=True
         )

@@ -1,4 +1,8 @@
-"""The tree of an IDSL file: modules with their types, exceptions and interfaces."""
+"""The tree of an IDSL file: modules with their types, exceptions and interfaces.
+
+ROS definitions (`.msg`, `.srv`, `.action`) have the same tree: a module of structs. Only they have
+arrays, constants and bounded strings.
+"""
 
 from __future__ import annotations
 
@@ -7,22 +11,46 @@ from typing import TypeAlias
 from robocomp_dsl.syntax.ast.base import Import, Literal, Name, Node, Number, QualifiedName, Unit
 
 
+class Array(Node):
+    """`[36]`, `[<=3]` or `[]` after the type of a field of a ROS definition; 0: no limit."""
+
+    size: int = 0
+    bound: int = 0
+
+
 class Field(Node):
-    """A field of a struct or exception: `float x = 0 [mm];`."""
+    """A field of a struct or exception: `float x = 0 [mm];`.
+
+    `string_bound` is the 10 of ROS's `string<=10`; `items` is a default in brackets.
+    """
 
     type: QualifiedName
     name: Name
     default: Literal | None = None
     unit: Unit | None = None
     doc: str = ""
+    array: Array | None = None
+    string_bound: int = 0
+    items: tuple[Literal, ...] = ()
+
+
+class Constant(Node):
+    """`uint8 ERROR=2` in a ROS definition."""
+
+    type: QualifiedName
+    name: Name
+    value: Literal
+    doc: str = ""
 
 
 class Struct(Node):
-    """`struct Name { fields };`."""
+    """`struct Name { fields };`. `ros_name` is `sensor_msgs/msg/Image` in a ROS definition."""
 
     name: Name
     fields: tuple[Field, ...]
     doc: str = ""
+    constants: tuple[Constant, ...] = ()
+    ros_name: str = ""
 
 
 class ExceptionDecl(Node):
@@ -107,11 +135,12 @@ Declaration: TypeAlias = Struct | ExceptionDecl | Enum | Sequence | Dictionary |
 
 
 class Module(Node):
-    """`module Name { declarations };`."""
+    """`module Name { declarations };`; `is_ros`: a ROS definition, with ROS's built-in types."""
 
     name: Name
     declarations: tuple[Declaration, ...]
     doc: str = ""
+    is_ros: bool = False
 
 
 class File(Node):

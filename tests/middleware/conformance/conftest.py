@@ -61,11 +61,15 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Give every case of this suite the deadline."""
+    """Give every case of this suite the deadline, and its cell of the table."""
     deadline = config.getoption("--deadline", default=_DEADLINE_S)
     for item in items:
         if item.nodeid.startswith(report.SUITE):
             item.add_marker(pytest.mark.timeout(deadline))
+            feature, callspec = item.get_closest_marker("feature"), getattr(item, "callspec", None)
+            if feature and callspec and "middleware" in callspec.params:
+                name = callspec.params["middleware"]
+                item.user_properties += [("middleware", name), ("feature", feature.args[0])]
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:
@@ -85,16 +89,6 @@ def network(middleware: str) -> Iterator[Network]:
     opened = Network(middleware)
     yield opened
     opened.close()
-
-
-@pytest.fixture(autouse=True)
-def case_of_the_table(request: pytest.FixtureRequest) -> None:
-    """Note for the report to which cell of the table the case belongs."""
-    callspec = getattr(request.node, "callspec", None)
-    feature = request.node.get_closest_marker("feature")
-    if callspec and feature and "middleware" in callspec.params:
-        properties = request.node.user_properties
-        properties += [("middleware", callspec.params["middleware"]), ("feature", feature.args[0])]
 
 
 @pytest.fixture(scope="session")

@@ -32,11 +32,23 @@ def _calls(node: Any) -> int:
 def subscribe(
     middleware: str, domain: str, name: str = "subscriber", qos: dict[str, Any] | None = None
 ) -> None:
-    """Subscribe to `News`. `count`: how many messages have arrived; `last`: the last number."""
+    """Subscribe to `News`. `count`: messages that have arrived; `last`: the last number; `lost`."""
     network = Network(middleware, domain)
     received: list[tuple[str, int]] = []
-    network.node(name).subscribe(lambda who, n: received.append((who, n)), qos=Qos(**(qos or {})))
-    _answer({"count": lambda: len(received), "last": lambda: received[-1][1] if received else -1})
+    node = network.node(name)
+    node.subscribe(lambda who, n: received.append((who, n)), qos=Qos(**(qos or {})))
+
+    def count_losses() -> int:
+        node.statistics.refresh()
+        return int(node.count("announced", "News").drops)
+
+    _answer(
+        {
+            "count": lambda: len(received),
+            "last": lambda: received[-1][1] if received else -1,
+            "lost": count_losses,
+        }
+    )
 
 
 def publish(middleware: str, domain: str, name: str = "publisher") -> None:

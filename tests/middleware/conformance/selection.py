@@ -25,7 +25,8 @@ _WHY = {
 def tested_middlewares(chosen: Sequence[str]) -> list[str]:
     """The chosen middlewares, by default all whose required modules are installed.
 
-    Raises `pytest.UsageError` for a name that cannot be tested.
+    Those that carry ROS types only have a suite of their own, in `tests/middleware/ros2`. Raises
+    `pytest.UsageError` for a name that cannot be tested.
     """
     names = chosen or [name for name in middleware_names() if not missing(name)]
     for name in names:
@@ -35,8 +36,12 @@ def tested_middlewares(chosen: Sequence[str]) -> list[str]:
 
 
 def missing(name: str) -> str:
-    """Why a middleware cannot be opened, and how to install it; empty if it can."""
+    """Why a middleware cannot be tested, and how to install it; empty if it can."""
     description = description_of(name)
+    if description and description.capabilities.ros_types_only:
+        return (
+            f"`{name}` carries ROS types only, which this suite has not: see tests/middleware/ros2"
+        )
     if description is None:
         return f"unknown middleware `{name}`; installed: {', '.join(middleware_names())}"
     modules = missing_modules(description)

@@ -25,6 +25,8 @@ pytestmark = [
 StartPeer = Callable[..., Peer]
 HOLD_S = 0.05
 """A subscriber must not hold a publisher for longer, by default."""
+SCHEDULING_S = 0.03
+"""What a busy machine may add to that."""
 
 
 @pytest.mark.needs("services")
@@ -190,7 +192,7 @@ def test_stopped_subscriber_does_not_hold_publisher(
         subscriber.stop()
         longest = longest_publication()
         subscriber.resume()
-        return longest <= HOLD_S
+        return longest <= HOLD_S + SCHEDULING_S
 
     assert any(is_not_held() for _ in range(5))
     wait_until(lambda: news.announced("", sent) or int(subscriber.ask("last")) == sent)

@@ -173,14 +173,3 @@ def test_slow_subscriber_keeps_latest_messages_of_its_depth(network: Network) ->
         return bool(node.count("announced", "News").drops == sent - len(received))
 
     wait_until(counted, lambda: f"{node.count('announced', 'News')}, {sent=} {len(received)=}")
-
-
-def test_publications_after_their_deadline_are_counted(network: Network) -> None:
-    received: list[int] = []
-    node = network.node("s")
-    node.subscribe(lambda _who, n: received.append(n), qos=Qos(deadline=1e-6))
-    strict = node.count("announced", "News")
-    news = network.node("p").news()
-    for n in range(3):
-        wait_until(lambda n=n: news.announced("p", n) or n in received)
-    wait_until(lambda: strict.missed == len(received) - 1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -150,9 +151,11 @@ def test_closed_components_leave_no_threads_descriptors_or_files(middleware: str
 
     use()  # What a process keeps: runtimes of foreign libraries, their first threads.
     use()
+    gc.collect()
     threads, descriptors = _threads(), _descriptors()
     for _ in range(5):
         use()
+    gc.collect()
     wait_until(lambda: _threads() <= threads, lambda: str(threading.enumerate()))
     wait_until(lambda: _descriptors() <= descriptors)
 

@@ -8,19 +8,17 @@ import uuid
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from click.testing import CliRunner
 
-from robocomp_dsl.runtime.component.callback_group import CallbackGroup
-from robocomp_dsl.runtime.component.statistics import Statistics
-from robocomp_dsl.runtime.connection.component_ports import ComponentPorts, open_ports
-from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
-from robocomp_dsl.runtime.connection.ports import ComponentContext
-from robocomp_dsl.runtime.presence.port_record import PortRecord
-from tests.middleware.ice.peers import STORE, PlainProgram, load_slice
+from tests.middleware.ice.ice_component import IceComponent
 
+if TYPE_CHECKING:
+    from tests.middleware.ice.peers import PlainProgram
+
+STORE = Path(__file__).parent / "store"
 _NAME = "ice_store_package"
 
 
@@ -39,6 +37,8 @@ def exported(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def slices(exported: Path) -> SimpleNamespace:
     """The modules of the Slice files as plain programs use them."""
+    from tests.middleware.ice.peers import load_slice  # noqa: PLC0415 - needs Ice
+
     store, faults = load_slice(exported / "Store.ice", "RoboCompStore", "RoboCompFaults")
     return SimpleNamespace(store=store, faults=faults)
 
@@ -59,37 +59,6 @@ def generated(tmp_path_factory: pytest.TempPathFactory) -> Any:
         return importlib.import_module(f"{_NAME}.interfaces")
     finally:
         sys.path.remove(str(folder))
-
-
-class IceComponent:
-    """One component of ours whose ports are on Ice."""
-
-    def __init__(self, name: str, domain: str, **options: Any) -> None:
-        self.name = name
-        self.statistics = Statistics()
-        self.group = CallbackGroup()
-        self.context = ComponentContext(name, domain, self.group, self.statistics, **options)
-        self.ports: ComponentPorts = open_ports("ice", self.context)
-
-    def endpoint(self, interface: Any, *external: str, qos: Qos | None = None) -> Endpoint:
-        """The port of an interface; `external` are addresses of plain programs."""
-        port = interface.name.rpartition("::")[2]
-        records = tuple(
-            PortRecord("server", interface.name, "plain", port, "", "ice", address)
-            for address in external
-        )
-        middlewares = ("ice",)
-        return Endpoint(interface, self.name, port, (), qos or Qos(), middlewares, records)
-
-    def serve(self, interface: Any, handlers: dict[str, Callable[..., Any]]) -> None:
-        every = {o.name: handlers.get(o.name, lambda *_: None) for o in interface.operations}
-        self.ports.serve(self.endpoint(interface), every, self.group)
-
-    def subscribe(
-        self, interface: Any, handler: Callable[..., Any], *external: str, **options: Any
-    ) -> None:
-        handlers = {operation.name: handler for operation in interface.operations}
-        self.ports.subscribe(self.endpoint(interface, *external, **options), handlers, self.group)
 
 
 @pytest.fixture
@@ -114,6 +83,8 @@ def component(domain: str) -> Iterator[Callable[..., IceComponent]]:
 @pytest.fixture
 def plain() -> Iterator[Callable[..., PlainProgram]]:
     """Starts plain programs within this process; they end with the test."""
+    from tests.middleware.ice.peers import PlainProgram  # noqa: PLC0415 - needs Ice
+
     opened: list[PlainProgram] = []
 
     def open_program(**options: Any) -> PlainProgram:
@@ -123,3 +94,17 @@ def plain() -> Iterator[Callable[..., PlainProgram]]:
     yield open_program
     for each in opened:
         each.close()
+
+
+@pytest.fixture
+def connect(
+    component: Callable[..., IceComponent], generated: Any
+) -> Callable[[str], SimpleNamespace]:
+    """A component whose port Store is connected to an address."""
+
+    def connected(address: str) -> SimpleNamespace:
+        own = component()
+        channel = own.ports.proxy(own.endpoint(generated.STORE, address))
+        return SimpleNamespace(proxy=generated.StoreProxy(channel), component=own)
+
+    return connected

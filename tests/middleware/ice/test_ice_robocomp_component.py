@@ -12,7 +12,12 @@ import pytest
 from click.testing import CliRunner
 
 from robocomp_dsl.resources import INTERFACES
-from tests.deploy.rcdeploy_process import RunningProcess, runtime_folder
+from tests.deploy.rcdeploy_process import (
+    RunningProcess,
+    rcdeploy,
+    runtime_folder,
+    start_rcdeploy,
+)
 from tests.middleware.ice.peers import free_port
 
 pytestmark = pytest.mark.peers
@@ -131,3 +136,52 @@ def test_generated_component_and_robocomp_component_use_old_configurations(
         assert base.end() == 0
         assert not base.has("Traceback")
         peer.until("no base: ::Ice::Conn")
+
+
+DEPLOYMENTS = {
+    "config": """\
+import "base/base.cdsl";
+Deployment lab
+{
+    component base { middleware ice; config "base/etc/config"; };
+};
+""",
+    "extern": """\
+import "base/base.cdsl";
+Deployment lab
+{
+    component base { port DifferentialRobot over ice at "tcp -p {base}"; };
+    extern laser over ice at "laser:tcp -h localhost -p {laser}" implements Laser;
+    extern driver over ice requires DifferentialRobot;
+    connect base.Laser -> laser.Laser;
+    connect driver.DifferentialRobot -> base.DifferentialRobot;
+};
+""",
+}
+
+
+@pytest.mark.parametrize("how", DEPLOYMENTS)
+def test_deployed_component_and_plain_program_talk(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, how: str
+) -> None:
+    monkeypatch.chdir(folder)
+    config = (folder / "base/etc/config").read_text()
+    ports = {
+        "base": config.partition("tcp -p ")[2].split()[0],
+        "laser": config.partition("localhost -p ")[2].split()[0],
+    }
+    text = DEPLOYMENTS[how]
+    for name, port in ports.items():
+        text = text.replace(f"{{{name}}}", port)
+    (folder / "lab.ddsl").write_text(text)
+    with (
+        RunningProcess(*python_program(folder), where=folder) as peer,
+        start_rcdeploy("up", "lab.ddsl", "--domain", folder.name) as deployed,
+    ):
+        deployed.until("hokuyo measures [1000.0, 1001.0, 1002.0] at x 12.5")
+        peer.until("base drives at 150 from 3 4", "base failed: cannot drive at -1")
+        call = rcdeploy("call", "base.DifferentialRobot.getBaseState", "--domain", folder.name)
+        assert "advVz: 150" in call.stdout, call.stdout + call.stderr
+        deployed.process.terminate()
+        assert deployed.end() == 0
+        assert not deployed.has("Traceback")

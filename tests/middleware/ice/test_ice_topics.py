@@ -11,9 +11,10 @@ from typing import Any
 
 import pytest
 
+from robocomp_dsl.runtime.connection import bounded_queue
 from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.errors import MiddlewareError
-from tests.middleware.ice.conftest import IceComponent
+from tests.middleware.ice.ice_component import IceComponent
 from tests.middleware.ice.icestorm import IceStormProcess, ice_storm
 from tests.middleware.ice.peers import PlainProgram, free_port
 from tests.support.waiting import wait_until
@@ -89,8 +90,12 @@ def test_reliable_topic_loses_nothing_with_a_slow_subscriber(
 
 
 def test_reliable_publisher_is_held_for_a_limited_time(
-    component: Callable[..., IceComponent], generated: Any, caplog: pytest.LogCaptureFixture
+    component: Callable[..., IceComponent],
+    generated: Any,
+    caplog: pytest.LogCaptureFixture,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    monkeypatch.setattr(bounded_queue, "HOLD_S", 0.03)
     subscriber, gate = component("listener"), threading.Event()
     handled: list[int] = []
 
@@ -107,7 +112,7 @@ def test_reliable_publisher_is_held_for_a_limited_time(
         for number in range(50):  # the first one is handled, two are queued, the rest is lost
             publish(proxy, generated, number)
         wait_until(lambda: counts.drops >= 40)
-    assert "receives nothing and held StorePub.changed for 50 ms" in caplog.text
+    assert "receives nothing and held StorePub.changed for 30 ms" in caplog.text
     gate.set()
     wait_until(lambda: len(handled) >= 3)
     wait_until(lambda: publish(proxy, generated, 99) or 99 in handled)

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from robocomp_dsl.runtime.errors import MiddlewareError, NoServer
-from tests.middleware.ice.conftest import IceComponent
+from tests.middleware.ice.ice_component import IceComponent
 from tests.middleware.ice.peers import free_port
 from tests.support.waiting import wait_until
 

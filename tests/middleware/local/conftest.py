@@ -5,7 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from robocomp_dsl.runtime.presence.stale_sockets import sweep_sockets
 from tests.middleware.local.direct import Side
+from tests.support.waiting import wait_until
 
 
 @pytest.fixture
@@ -26,4 +28,9 @@ def side(folder: Path) -> Iterator[Callable[[str], Side]]:
     for each in opened:
         each.transport.close()
     assert not [failure for each in opened for failure in each.failures]
-    assert not list(folder.iterdir())
+
+    def is_empty() -> bool:
+        sweep_sockets(folder)  # of processes that the test has killed
+        return not list(folder.iterdir())
+
+    wait_until(is_empty, lambda: str(list(folder.iterdir())))

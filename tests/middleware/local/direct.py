@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -20,11 +19,10 @@ from tests.middleware.probe_types import PROBE
 
 FRAMES = rt.Interface(
     "Test::Frames",
-    rt.Operation(
-        "taken", rt.Pattern.PUBLISH, inputs={"number": rt.Int, "pixels": rt.UInt8Array}
-    ),
+    rt.Operation("taken", rt.Pattern.PUBLISH, inputs={"number": rt.Int, "pixels": rt.UInt8Array}),
 )
 TIMEOUT_S = 60.0
+NO_QOS = Qos()
 
 
 class Side:
@@ -54,7 +52,7 @@ class Side:
         return self._record("server", port.at, self.transport.serve(port).address)
 
     def subscribe(
-        self, handlers: Mapping[str, Callable[..., Any]], interface: Interface, qos: Qos = Qos()
+        self, handlers: Mapping[str, Callable[..., Any]], interface: Interface, qos: Qos = NO_QOS
     ) -> PortRecord:
         port = self._incoming(interface, handlers, qos)
         return self._record("subscriber", port.at, self.transport.subscribe(port).address)
@@ -68,7 +66,7 @@ class Side:
     ) -> Calls:
         return Calls(self, server, interface, timeout)
 
-    def publisher(self, interface: Interface, *subscribers: PortRecord, qos: Qos = Qos()) -> Topic:
+    def publisher(self, interface: Interface, *subscribers: PortRecord, qos: Qos = NO_QOS) -> Topic:
         return Topic(self, interface, subscribers, qos)
 
     def count(self, operation: str, interface: Interface = PROBE) -> OperationCounts:
@@ -115,4 +113,4 @@ class Topic:
 
 def open_descriptors() -> int:
     """How many descriptors this process has."""
-    return len(os.listdir("/proc/self/fd"))
+    return sum(1 for _ in Path("/proc/self/fd").iterdir())

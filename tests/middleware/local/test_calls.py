@@ -14,7 +14,7 @@ from robocomp_dsl.runtime.errors import InterfaceMismatch, NoServer, Timeout
 from robocomp_dsl.runtime.middleware.transport import ServerLost
 from tests.middleware.local.direct import Side, open_descriptors
 from tests.middleware.probe_handlers import HANDLERS
-from tests.middleware.probe_types import OTHER_PROBE
+from tests.middleware.probe_types import OTHER_PROBE, Broken
 from tests.support.waiting import wait_until
 
 Open = Callable[[str], Side]
@@ -99,7 +99,7 @@ def test_call_with_another_interface_is_a_mismatch(side: Open) -> None:
     record = side("server").serve(HANDLERS)
     call = side("client").calls(record, OTHER_PROBE)
     for _ in range(2):
-        with pytest.raises(InterfaceMismatch, match="client.Probe and server.Probe"):
+        with pytest.raises(InterfaceMismatch, match=r"client\.Probe and server\.Probe"):
             call("add", 1, 2)
 
 
@@ -215,3 +215,18 @@ def test_nested_calls_between_two_components_do_not_deadlock(side: Open) -> None
     with left.group:
         assert waits(left, call_right, 12) == 12
 
+
+def test_operation_that_is_not_served_is_a_mismatch(side: Open) -> None:
+    call = side("client").calls(side("server").serve({"add": lambda a, b: a + b}))
+    with pytest.raises(InterfaceMismatch, match="there is no such operation"):
+        call("echo", np.zeros(1, np.float32))
+    assert call("add", 1, 2) == 3
+
+
+def test_long_declared_exception_arrives(side: Open) -> None:
+    def divide(_a: int, _b: int) -> tuple[int, int]:
+        raise Broken(5, "z" * 100_000)
+
+    with pytest.raises(Broken) as caught:
+        side("client").calls(side("server").serve({"divide": divide}))("divide", 1, 0)
+    assert (caught.value.code, len(caught.value.what)) == (5, 100_000)

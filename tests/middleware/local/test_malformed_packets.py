@@ -10,6 +10,7 @@ import threading
 from array import array
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -68,9 +69,11 @@ def is_closed(opened: socket.socket) -> bool:
 
 def send(opened: socket.socket, packet: bytes, *descriptors: int) -> None:
     rights = (socket.SOL_SOCKET, socket.SCM_RIGHTS, array("i", descriptors))
-    opened.sendmsg([packet], [rights] if descriptors else [])
-    for descriptor in descriptors:
-        os.close(descriptor)
+    try:
+        opened.sendmsg([packet], [rights] if descriptors else [])
+    finally:
+        for descriptor in descriptors:
+            os.close(descriptor)
 
 
 GREETINGS = {
@@ -91,8 +94,8 @@ def test_listener_closes_connections_of_other_protocols(
         opened = connected(server[1], greet=False)
         opened.send(GREETINGS[greeting])
         assert is_closed(opened)
-        wait_until(lambda: server[0].transport._listener.rejected == 1)
-    assert "rejected a" in caplog.text
+        wait_until(lambda: "rejected a" in caplog.text)
+    assert server[0].transport._listener.rejected == 1
 
 
 def test_listener_refuses_a_port_of_another_kind(server: tuple[Side, PortRecord]) -> None:
@@ -154,8 +157,12 @@ def test_descriptors_of_strangers_are_closed(server: tuple[Side, PortRecord]) ->
     shared = ADD[:1] + b"\1" + ADD[2:] + packets.SIZE.pack(100)
     for packet, count in ((ADD + REQUEST, 1), (ADD + REQUEST, 5), (shared, 1), (shared, 2)):
         opened = connected(server[1])
+        opened.send(packets.ANNOUNCEMENT)
         send(opened, packet, *(null() for _ in range(count)))
         assert is_closed(opened)
+    with connected(server[1]) as opened:  # without an announcement they are discarded
+        send(opened, ADD + REQUEST, null(), null())
+        assert opened.recv(100)[0] == packets.RESULT
     silent = connected(server[1], greet=False)
     send(silent, GREETINGS["text"], null())
     assert is_closed(silent)
@@ -199,7 +206,7 @@ def test_client_survives_malformed_replies(side: Open, folder: object) -> None:
             with pytest.raises(MiddlewareError):
                 client.calls(record)("add", 1, 2)
         thread.join()
-    os.unlink(path)
+    Path(path).unlink()
     assert open_descriptors() <= before
 
 
@@ -236,6 +243,7 @@ def send_mutations(record: PortRecord, originals: list[bytes], count: int, seed:
                 message = pool.message((body,), len(body))
                 size = rng.choice((len(body), rng.randrange(1 << 40)))
                 head = ADD[:1] + b"\1" + ADD[2:] + packets.SIZE.pack(size)
+                opened.send(packets.ANNOUNCEMENT * rng.choice((1, 1, 1, 2)))
                 send(opened, head, os.dup(message.descriptor))
             else:
                 opened.send(packet)
@@ -276,8 +284,8 @@ def test_server_survives_many_mutated_packets(server: tuple[Side, PortRecord], s
 
 
 def resident_bytes() -> int:
-    with open("/proc/self/statm") as file:
-        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE")
 
 
 def test_subscriber_survives_malformed_publications(side: Open) -> None:
@@ -287,7 +295,7 @@ def test_subscriber_survives_malformed_publications(side: Open) -> None:
     path, port = ports.parse_address(record.address)
     at = Endpoint(FRAMES, "p", "Frames")
     head = ports.head_of(packets.PUBLICATION, FRAMES, FRAMES.operations[0])
-    for packet in (head, head + bytes(15), ADD + REQUEST, b"\0", head + bytes(16) + b"xyz"):
+    for packet in (head, head + bytes(15), ADD + REQUEST, b"\2", head + bytes(16) + b"xyz"):
         with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as opened:
             opened.connect(path)
             opened.send(ports.hello_packet(at, port, packets.PUBLICATION))
@@ -295,5 +303,3 @@ def test_subscriber_survives_malformed_publications(side: Open) -> None:
     wait_until(lambda: subscriber.count("taken", FRAMES).malformed == 5)
     side("p").publisher(FRAMES, record)("taken", 1, np.zeros(100_000, np.uint8))
     wait_until(lambda: received == [1])
-
-

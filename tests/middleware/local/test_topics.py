@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import os
 import threading
 import time
 from collections.abc import Callable
@@ -13,7 +12,7 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.runtime.connection.endpoint import Qos
-from robocomp_dsl.runtime.middleware.local import subscriber_link
+from robocomp_dsl.runtime.middleware.local import subscriber_socket
 from tests.middleware.local.direct import FRAMES, Side, open_descriptors
 from tests.middleware.probe_types import NEWS, OTHER_NEWS
 from tests.support.waiting import wait_until
@@ -88,15 +87,15 @@ def mapped_file(array: np.ndarray) -> str:
 
 
 def test_arrays_that_a_subscriber_keeps_do_not_change(side: Open) -> None:
-    kept: list[np.ndarray] = []
-    record = side("s").subscribe({"taken": lambda _n, pixels: kept.append(pixels)}, FRAMES)
+    arrays: list[np.ndarray] = []
+    record = side("s").subscribe({"taken": lambda _n, pixels: arrays.append(pixels)}, FRAMES)
     publish = side("p").publisher(FRAMES, record)
     for number in range(40):
         publish("taken", number, PIXELS + number)
-        wait_until(lambda number=number: len(kept) > number)
+        wait_until(lambda number=number: len(arrays) > number)
         if number % 2:
-            kept[number] = PIXELS[:1]  # releases the message
-    assert all(set(array) == {n} for n, array in enumerate(kept) if n % 2 == 0)
+            arrays[number] = PIXELS[:1]  # releases the message
+    assert all(set(array) == {n} for n, array in enumerate(arrays) if n % 2 == 0)
 
 
 @pytest.mark.parametrize(("interface", "depth"), [(NEWS, None), (NEWS, 3), (FRAMES, None)])
@@ -128,7 +127,7 @@ def test_slow_subscriber_does_not_hold_the_publisher(
 def test_queue_of_large_messages_is_limited_in_bytes(
     side: Open, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(subscriber_link, "MAX_QUEUED_BYTES", 10 * PIXELS.nbytes)
+    monkeypatch.setattr(subscriber_socket, "MAX_QUEUED_BYTES", 10 * PIXELS.nbytes)
     slow = Slow()
     publish = side("p").publisher(FRAMES, side("s").subscribe({"taken": slow.taken}, FRAMES))
     publish("taken", 0, PIXELS)
@@ -173,7 +172,7 @@ def test_reliable_publisher_waits_for_a_slow_subscriber(side: Open) -> None:
 def test_reliable_subscriber_that_receives_nothing_holds_once(
     side: Open, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr(subscriber_link, "HOLD_S", 0.05)
+    monkeypatch.setattr(subscriber_socket, "HOLD_S", 0.05)
     slow, qos, publisher = Slow(), Qos(reliable=True), side("p")
     record = side("s").subscribe({"taken": slow.taken}, FRAMES, qos)
     publish = publisher.publisher(FRAMES, record, qos=qos)
@@ -262,4 +261,16 @@ def test_connections_that_have_ended_leave_nothing(side: Open) -> None:
     wait_until(lambda: len(received) == 30)
     wait_until(lambda: open_descriptors() <= before + 1)
     wait_until(lambda: threading.active_count() <= threads)
-    assert os.getpid()
+
+
+def test_publications_of_a_publisher_that_closes_at_once_arrive(side: Open) -> None:
+    received: list[int] = []
+    record = side("s").subscribe({"taken": lambda n, _pixels: received.append(n)}, FRAMES)
+    publisher = side("p")
+    for number in range(0, 40, 2):
+        publish = publisher.publisher(FRAMES, record)
+        publish("taken", number, PIXELS)
+        publish("taken", number + 1, PIXELS[:9])
+        publish.publisher.close()
+    wait_until(lambda: len(received) == 40)
+    assert sorted(received) == list(range(40))

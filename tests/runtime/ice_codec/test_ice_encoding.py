@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -42,6 +43,11 @@ CASES: list[tuple[str, Any, Any, str]] = [
     ("bools", rt.Array(rt.BOOL), [True, False], "02 0100"),
     ("doubles", rt.Array(rt.DOUBLE), [1.5], "01 000000000000f83f"),
     ("strings", rt.Sequence(rt.STRING), ["a", ""], "02 0161 00"),
+    ("unsigned number of ROS", rt.UINT32, 2**32 - 1, "ffffffff"),
+    ("small number of ROS", rt.INT8, -2, "fe"),
+    ("fixed array of ROS", rt.Array(rt.UINT16, size=2), [1, 65535], "02 0100 ffff"),
+    ("fixed list of ROS", rt.Sequence(rt.STRING, size=1), ["a"], "01 0161"),
+    ("bounded string of ROS", replace(rt.STRING, bound=2), "ab", "02 6162"),
     ("enums", rt.Sequence(LARGE), [LARGE(255), LARGE(1)], "02 ff ff000000 01"),
     ("dictionary", rt.Dictionary(rt.BYTE, rt.INT), {7: 1}, "01 07 01000000"),
     ("points", array_of(POINT), [POINT(0.0, 1.5)], "01 00000000 0000c03f"),

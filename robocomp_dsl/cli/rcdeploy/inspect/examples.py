@@ -9,7 +9,6 @@ from robocomp_dsl.runtime.data.schema import (
     BOOL,
     DOUBLE,
     FLOAT,
-    STRING,
     Array,
     Dictionary,
     Enum,
@@ -19,7 +18,7 @@ from robocomp_dsl.runtime.data.schema import (
 )
 from robocomp_dsl.runtime.data.struct import Struct
 
-_EXAMPLES = {BOOL: "true", FLOAT: "0.5", DOUBLE: "0.5", STRING: "text"}  # others: 1
+_EXAMPLES = {BOOL: "true", FLOAT: "0.5", DOUBLE: "0.5"}  # others: 1
 _MAX_DEPTH = 4
 _MAX_FIELDS = 6
 
@@ -30,9 +29,11 @@ def example(type_: Type, depth: int = _MAX_DEPTH) -> str:
         return "…"
     match type_:
         case Primitive():
-            return _EXAMPLES.get(type_, "1")
+            return "text" if type_.is_text else _EXAMPLES.get(type_, "1")
         case Array() | Sequence():
-            return f"[{example(type_.element, depth - 1)}]"
+            element = example(type_.element, depth - 1)
+            shown = [element] * min(type_.size or 1, _MAX_FIELDS)
+            return f"[{', '.join([*shown, *(['…'] if type_.size > _MAX_FIELDS else [])])}]"
         case Dictionary():
             key, value = example(type_.key, depth - 1), example(type_.value, depth - 1)
             if isinstance(type_.key, type) and issubclass(type_.key, Struct):

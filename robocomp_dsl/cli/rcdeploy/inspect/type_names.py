@@ -5,6 +5,7 @@ from __future__ import annotations
 from robocomp_dsl.client import DescribedPort
 from robocomp_dsl.runtime.data.arrays import StructArray
 from robocomp_dsl.runtime.data.schema import Array, Dictionary, Primitive, Sequence, Type
+from robocomp_dsl.runtime.data.type_hash import sequence_shape, type_shape
 from robocomp_dsl.runtime.dynamic.schema_interface import FieldInfo, OperationInfo
 
 
@@ -12,9 +13,9 @@ def type_name(type_: Type) -> str:
     """`double`, `sequence<Pose>`, `Pose`."""
     match type_:
         case Primitive():
-            return type_.name
+            return type_shape(type_)
         case Array() | Sequence():
-            return f"sequence<{type_name(type_.element)}>"
+            return sequence_shape(type_, type_name(type_.element))
         case Dictionary():
             return f"dictionary<{type_name(type_.key)},{type_name(type_.value)}>"
     if issubclass(type_, StructArray):

@@ -16,11 +16,11 @@ from robocomp_dsl.cli.rcdeploy.inspect.examples import example
 from robocomp_dsl.cli.rcdeploy.inspect.type_names import type_name
 from robocomp_dsl.diagnostics import did_you_mean
 from robocomp_dsl.runtime.data.arrays import StructArray
+from robocomp_dsl.runtime.data.convert import check_count
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
     DOUBLE,
     FLOAT,
-    STRING,
     Array,
     Dictionary,
     Enum,
@@ -29,6 +29,7 @@ from robocomp_dsl.runtime.data.schema import (
     Type,
 )
 from robocomp_dsl.runtime.data.struct import Struct
+from robocomp_dsl.runtime.errors import EncodeError
 
 _BOOLS = {"true": True, "yes": True, "on": True, "false": False, "no": False, "off": False}
 _INFINITE = {".inf": "inf", "+.inf": "inf", "-.inf": "-inf", ".nan": "nan"}
@@ -89,6 +90,11 @@ class _Reader:
     def _items(self, type_: Type, node: yaml.Node) -> list[yaml.Node]:
         if isinstance(node, yaml.SequenceNode):
             items: list[yaml.Node] = node.value
+            try:
+                if isinstance(type_, Array | Sequence):
+                    check_count(type_, len(items))
+            except EncodeError as error:
+                raise self._problem(node, error.reason, type_) from None
             return items
         raise self._problem(node, f"{_shown(node)} is not a list", type_)
 
@@ -99,7 +105,9 @@ class _Reader:
 
     def _primitive(self, type_: Primitive, node: yaml.Node) -> Any:
         text = self._text(type_, node)
-        if type_ is STRING:
+        if type_.is_text:
+            if type_.bound and len(text.encode()) > type_.bound:
+                raise self._problem(node, f"the text is longer than {type_.bound} bytes", type_)
             return text
         if type_ is BOOL:
             if text.lower() in _BOOLS:

@@ -17,7 +17,7 @@ from robocomp_dsl.runtime.codec.ice.decoder import decoder_function
 from robocomp_dsl.runtime.codec.ice.encoder import encoder_function
 from robocomp_dsl.runtime.codec.ice.read import Reader
 from robocomp_dsl.runtime.data.declared_error import DeclaredError
-from robocomp_dsl.runtime.data.schema import Fields
+from robocomp_dsl.runtime.data.schema import STRING, Fields
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
 from robocomp_dsl.slice_identifiers import valid_path
 
@@ -117,7 +117,7 @@ def error_decoder(
         for _ in range(_MAX_SLICES):
             start = reader.at
             has = reader.number("B", "flags of the exception")
-            name = reader.text("type id of the exception")
+            name = reader.text(STRING, "type id of the exception")
             first = first or name
             end = _slice_end(reader) if has & _HAS_SIZE else 0
             if name in classes:

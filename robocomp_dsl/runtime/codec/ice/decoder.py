@@ -23,7 +23,6 @@ from robocomp_dsl.runtime.data.declared_error import DeclaredError
 from robocomp_dsl.runtime.data.layout import row_layout
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
-    STRING,
     Array,
     Dictionary,
     Enum,
@@ -131,9 +130,9 @@ class _Decoder(SourceWriter):
             case Primitive():
                 value = self.primitive(type_)
             case Array():
-                value = self.array(type_.element)
+                value = self.array(type_)
             case Sequence():
-                value = self.sequence(type_.element)
+                value = self.sequence(type_.element, type_)
             case Dictionary():
                 value = self.dictionary(type_)
             case _ if issubclass(type_, Struct):
@@ -148,15 +147,17 @@ class _Decoder(SourceWriter):
 
     def primitive(self, type_: Primitive) -> str:
         """A number, a bool or a string."""
-        if type_ is STRING:
-            return self.text()
+        if type_.is_text:
+            return self.text(type_.bound)
         if type_ is BOOL:
             return f"{self.constant((False, True))}[{self.number('B')}]"
         return self.number(type_.code)
 
-    def text(self) -> str:
+    def text(self, bound: int) -> str:
         """Size and UTF-8. A slice beyond the end is short; the end of the message shows it."""
         size, text = self.size(), self.name("s")
+        if bound:
+            self.line(f"if {size} > {bound}: raise ValueError")
         self.line(f"{text} = b[o:o + {size}].decode()")
         self.line(f"o += {size}")
         return text
@@ -172,10 +173,12 @@ class _Decoder(SourceWriter):
             self.line(f"{name}.{attribute} = {value}")
         return name
 
-    def array(self, primitive: Primitive) -> str:
+    def array(self, type_: Array) -> str:
         """A view of the message, or a copy if its memory is not aligned."""
+        primitive = type_.element
         dtype = np.dtype(np.uint8) if primitive is BOOL else primitive.dtype
         count, name = self.size(), self.name("a")
+        self.limit(type_, count)
         self.line(f"{name} = ndarray({count}, {self.constant(dtype)}, b, o)")
         self.line(f"o += {count} * {primitive.size}")
         if primitive.size > 1:
@@ -198,9 +201,11 @@ class _Decoder(SourceWriter):
             self.line(f"{self.constant(check)}({name})")
         return f"{self.constant(type_._over)}({name})"
 
-    def sequence(self, element: Type) -> str:
+    def sequence(self, element: Type, type_: Sequence | None = None) -> str:
         """A list. It grows with the decoded elements, independent of the transmitted count."""
         count, name = self.size(), self.name("q")
+        if type_:
+            self.limit(type_, count)
         self.line(f"{name} = []")
 
         def body() -> None:

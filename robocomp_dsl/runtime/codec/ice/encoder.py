@@ -27,7 +27,6 @@ from robocomp_dsl.runtime.data.declared_error import DeclaredError
 from robocomp_dsl.runtime.data.layout import row_layout
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
-    STRING,
     Array,
     Dictionary,
     Enum,
@@ -136,9 +135,11 @@ class _Encoder(SourceWriter):
             case Primitive():
                 self.primitive(type_, expression)
             case Array():
-                self.array(type_.element.dtype, expression)
+                self.array(type_, expression)
             case Sequence():
-                self.sequence(type_.element, self.items(expression))
+                name = self.items(expression)
+                self.limit(type_, f"len({name})")
+                self.sequence(type_.element, name)
             case Dictionary():
                 self.dictionary(type_, expression)
             case _ if issubclass(type_, Struct):
@@ -150,9 +151,11 @@ class _Encoder(SourceWriter):
 
     def primitive(self, type_: Primitive, expression: str) -> None:
         """A number, a bool or a string."""
-        if type_ is STRING:
+        if type_.is_text:
             text = self.name("s")
             self.line(f"{text} = {expression}.encode()")
+            if type_.bound:
+                self.line(f"if len({text}) > {type_.bound}: raise ValueError")
             self.size(text)
             self.part(text)
         elif type_ is BOOL:
@@ -184,14 +187,16 @@ class _Encoder(SourceWriter):
         for attribute, (_, inner) in zip(type_._names_, type_._fields_, strict=True):
             self.value(inner, f"{name}.{attribute}")
 
-    def array(self, dtype: np.dtype[Any], expression: str) -> None:
-        """A numpy array; its memory is a piece of the message."""
+    def array(self, type_: Array, expression: str) -> None:
+        """A numpy array; its memory is a piece of the message. Ice has no arrays of fixed size."""
+        dtype = type_.element.dtype
         name = self.assigned("a", expression)
         kind, strides = self.constant(dtype), f"({dtype.itemsize},)"
         self.line(
             f"if {name}.__class__ is not ndarray or {name}.dtype is not {kind}"
             f" or {name}.strides != {strides}: {name} = as_array({name}, {kind})"
         )
+        self.limit(type_, f"len({name})")
         self.size(name)
         self.part(f"{name}.view(u1)")
 

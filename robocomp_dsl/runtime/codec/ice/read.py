@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from robocomp_dsl.runtime.codec.ice import rows, wire
+from robocomp_dsl.runtime.codec.read import check_length, check_text_length
 from robocomp_dsl.runtime.codec.struct_arrays import bad_element
 from robocomp_dsl.runtime.data.declared_error import DeclaredError
 from robocomp_dsl.runtime.data.layout import row_layout
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
-    STRING,
     Array,
     Dictionary,
     Enum,
@@ -105,9 +105,9 @@ class Reader:
             case Primitive():
                 value = self.primitive(type_, path)
             case Array():
-                value = self.array(type_.element, path)
+                value = self.array(type_, path)
             case Sequence():
-                value = self.sequence(type_.element, path)
+                value = self.sequence(type_.element, path, type_)
             case Dictionary():
                 value = self.dictionary(type_, path)
             case _ if issubclass(type_, Enum):
@@ -120,8 +120,8 @@ class Reader:
 
     def primitive(self, type_: Primitive, path: str) -> Any:
         """A number, a bool or a string."""
-        if type_ is STRING:
-            return self.text(path)
+        if type_.is_text:
+            return self.text(type_, path)
         if type_ is BOOL:
             number = self.number("B", path)
             if number > 1:
@@ -129,9 +129,12 @@ class Reader:
             return bool(number)
         return self.number(type_.code, path)
 
-    def text(self, path: str) -> str:
+    def text(self, type_: Primitive, path: str) -> str:
         """Size and UTF-8."""
-        start = self.take(self.count(path), path)
+        before = self.at
+        size = self.count(path)
+        check_text_length(type_, size, path, before)
+        start = self.take(size, path)
         try:
             return self.data[start : self.at].decode()
         except UnicodeDecodeError as error:
@@ -156,9 +159,13 @@ class Reader:
             self.take(1, path)
         return value
 
-    def sequence(self, element: Type, path: str) -> list[Any]:
+    def sequence(self, element: Type, path: str, type_: Sequence | None = None) -> list[Any]:
         """A list; every element has at least one byte."""
-        return [self.value(element, f"{path}[{i}]") for i in range(self.count(path))]
+        start = self.at
+        count = self.count(path)
+        if type_:
+            check_length(type_, count, path, start)
+        return [self.value(element, f"{path}[{i}]") for i in range(count)]
 
     def dictionary(self, type_: Dictionary, path: str) -> dict[Any, Any]:
         """Pairs; of duplicate keys the last one is used."""
@@ -168,9 +175,11 @@ class Reader:
             pairs[key] = self.value(type_.value, f"{path}[{index}].value")
         return pairs
 
-    def array(self, primitive: Primitive, path: str) -> Any:
+    def array(self, type_: Array, path: str) -> Any:
         """Numbers: a view of the message, or a copy if its memory is not aligned."""
+        primitive, before = type_.element, self.at
         count = self.count(path, primitive.size)
+        check_length(type_, count, path, before)
         dtype = np.dtype(np.uint8) if primitive is BOOL else primitive.dtype
         start = self.take(count * primitive.size, path)
         array = np.ndarray(count, dtype, self.data, start)

@@ -12,6 +12,8 @@ from typing import NamedTuple
 ICESTORM = "icestorm:"
 """Start of the address of a topic of IceStorm."""
 _ENDPOINT = re.compile(r"\s*(?:tcp|ssl|ws|wss|udp|default)\b")
+_TCP = re.compile(r"\s*(?:tcp|ssl|ws|wss|default)\b")
+_PORT = re.compile(r"\s-p\s*([0-9]{1,5})(?=\s|$)")
 _IDENTITY = re.compile(r"\s*([^\s:@]+)\s*:(.*)", re.DOTALL)
 
 
@@ -33,6 +35,13 @@ def parse_fixed(text: str, port: str) -> FixedAddress:
     if match and _ENDPOINT.match(match[2]):
         return FixedAddress(match[1], match[2].strip())
     raise ValueError(f"`{text}` is no address of Ice; write such as `tcp -p 10001`")
+
+
+def tcp_ports(text: str) -> list[int]:
+    """The fixed TCP ports where a port at this address listens."""
+    endpoints = [part for part in re.split(r":", text) if _TCP.match(part)]
+    numbers = [match[1] for part in endpoints if (match := _PORT.search(part))]
+    return [int(number) for number in numbers if int(number)]
 
 
 def join_proxies(queries: str, commands: str) -> str:

@@ -10,10 +10,11 @@ MIDDLEWARE = MiddlewareDescription(
         external_peers=True,
         fixed_address=True,
         attaches_subscribers=True,
-        qos=frozenset({"reliable"}),
+        qos=frozenset({"reliable", "keep_all", "latched"}),
     ),
     opener="robocomp_dsl.runtime.middleware.ice.transport:open_transport",
     configuration="robocomp_dsl.runtime.middleware.ice.configuration:apply",
+    tcp_ports="robocomp_dsl.runtime.middleware.ice.addresses:tcp_ports",
     requires=("Ice",),
     install=(
         "on Debian and Ubuntu run: sudo apt-get install python3-zeroc-ice, and see"

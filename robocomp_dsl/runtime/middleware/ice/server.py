@@ -144,9 +144,10 @@ def _acknowledged(served: IncomingOperation, queue: AcknowledgedQueue) -> Invoke
     def receive(message: bytes, current: Any) -> Any:
         counts.bytes_in += len(message)
         try:
-            return put(served, handle, decode(message), is_answered=bool(current.requestId))
+            arguments = decode(message)
         except MalformedMessage as error:
             served.report(error)
             raise encode_failure(error) from None
+        return put(served, handle, arguments, len(message), is_answered=bool(current.requestId))
 
     return receive

@@ -1,8 +1,8 @@
 """Sends the publications of one port to one subscriber, and never waits for it for long.
 
 In: encoded publications. Out: oneway messages; or, if the port is reliable, messages that the
-subscriber acknowledges. A subscriber that receives nothing may hold the publisher for `HOLD_S`
-once; after that it loses messages until it receives again.
+subscriber acknowledges. A subscriber that receives nothing may hold the publisher once, for
+`HOLD_S` or that of `bounded_queue`; after that it loses messages until it receives again.
 """
 
 from __future__ import annotations
@@ -17,17 +17,18 @@ import Ice
 
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.throttle import Throttle
+from robocomp_dsl.runtime.connection import bounded_queue
 from robocomp_dsl.runtime.middleware.ice.communicator import reason
 
-HOLD_S = 0.05
-"""How long a subscriber may hold a publication."""
+HOLD_S = 0.03
+"""How long a subscriber may hold a publication that is not acknowledged."""
 DEPTH = 256
 """Publications on their way to one subscriber, if the port states no depth."""
 
 log = logging.getLogger("robocomp")
 
 
-class SubscriberLink:
+class IceSubscriberLink:
     """One subscriber. `is_broken` is set when a message could not be sent."""
 
     def __init__(self, proxy: Any, name: str, depth: int | None, *, reliable: bool) -> None:
@@ -36,6 +37,7 @@ class SubscriberLink:
         self._reliable = reliable
         self._depth = depth or DEPTH
         self._pending: deque[Any] = deque()
+        self._hold_s = bounded_queue.HOLD_S if reliable else HOLD_S
         self._stalled = False
         self._lock = threading.Lock()
         self._throttle = Throttle()
@@ -94,7 +96,7 @@ class SubscriberLink:
             return True
         if not self._stalled:
             with contextlib.suppress(Ice.Exception):
-                pending[0].result(HOLD_S)
+                pending[0].result(self._hold_s)
             if self._is_done(pending[0]):
                 self._finish(pending.popleft(), counts)
                 return True
@@ -109,7 +111,7 @@ class SubscriberLink:
         if self._throttle.allows("held"):
             log.warning(
                 "%s receives nothing and held %s.%s for %g ms; until it does, it loses messages",
-                *(self.name, counts.port, counts.operation, HOLD_S * 1000),
+                *(self.name, counts.port, counts.operation, self._hold_s * 1000),
             )
 
     def _failed(self, error: Exception, counts: OperationCounts) -> None:

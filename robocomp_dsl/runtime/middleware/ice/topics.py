@@ -19,7 +19,7 @@ from robocomp_dsl.runtime.middleware.ice.addresses import ICESTORM
 from robocomp_dsl.runtime.middleware.ice.client import mode_of, parse_proxy
 from robocomp_dsl.runtime.middleware.ice.icestorm import TopicLink
 from robocomp_dsl.runtime.middleware.ice.server import names_of
-from robocomp_dsl.runtime.middleware.ice.subscriber_link import SubscriberLink
+from robocomp_dsl.runtime.middleware.ice.subscriber_link import IceSubscriberLink
 from robocomp_dsl.runtime.middleware.transport import BoundOperation
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
@@ -33,7 +33,7 @@ class IcePublisher:
         self._communicator = communicator
         self._at = at
         self._names = names_of(at.interface)
-        self._links: dict[PortRecord, SubscriberLink] = {}
+        self._links: dict[PortRecord, IceSubscriberLink] = {}
         self._topics: list[StormPublisher] = []
         for record in at.external:
             if record.middleware != "ice":
@@ -62,8 +62,8 @@ class IcePublisher:
         """See `Publisher`."""
         proxy = parse_proxy(self._communicator, subscriber.address, subscriber.name)
         qos = self._at.qos
-        self._links[subscriber] = SubscriberLink(
-            proxy, subscriber.name, qos.depth, reliable=bool(qos.reliable)
+        self._links[subscriber] = IceSubscriberLink(
+            proxy, subscriber.name, qos.depth, reliable=qos.holds_publisher
         )
 
     def detach(self, subscriber: PortRecord) -> None:
@@ -90,16 +90,20 @@ class StormPublisher:
     def __init__(self, communicator: Any, at: Endpoint, manager: str, topic: str) -> None:
         self._at = at
         self._name = f"IceStorm's topic {topic}"
-        self._sender: SubscriberLink | None = None
+        self._sender: IceSubscriberLink | None = None
         self._proxy: Any = None
         self._link = TopicLink(communicator, manager, topic, at.name, self._connect)
 
     def _connect(self, topic: Any) -> None:
         proxy = topic.getPublisher()
         if proxy != self._proxy or self._sender is None or self._sender.is_broken:
+            if self._sender:
+                self._sender.close()
             qos = self._at.qos
             self._proxy = proxy
-            self._sender = SubscriberLink(proxy, self._name, qos.depth, reliable=bool(qos.reliable))
+            self._sender = IceSubscriberLink(
+                proxy, self._name, qos.depth, reliable=qos.holds_publisher
+            )
 
     def send(self, name: str, mode: Any, data: bytes, counts: OperationCounts) -> None:
         """Send one publication."""
@@ -124,7 +128,7 @@ class StormSubscription:
     def __init__(
         self, communicator: Any, at: Endpoint, manager: str, topic: str, proxy: Any
     ) -> None:
-        reliable = bool(at.qos.reliable)
+        reliable = at.qos.holds_publisher
         self._proxy = proxy.ice_twoway() if reliable else proxy.ice_oneway()
         self._qos = {"reliability": "ordered"} if reliable else {}
         self._topic: Any = None

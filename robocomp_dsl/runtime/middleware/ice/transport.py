@@ -96,7 +96,7 @@ class IceTransport:
                 " name a topic of IceStorm, such as icestorm:LaserPub, or let the publisher send"
                 f" to an address of this port: --address '{at.port}=ice:tcp -p 10010'"
             )
-        queue = AcknowledgedQueue(port) if at.qos.reliable else MessageQueue(port)
+        queue = AcknowledgedQueue(port) if at.qos.holds_publisher else MessageQueue(port)
         servant = topic_servant(port, queue)
         adapter, identity = self._adapter_of(port, ordered=True)
         proxy = adapter.add(servant, identity)

@@ -9,6 +9,7 @@ MIDDLEWARE = MiddlewareDescription(
         between_processes=False,
         attaches_subscribers=True,
         reports_source=True,
+        qos=frozenset({"reliable", "keep_all", "latched"}),
     ),
     opener="robocomp_dsl.runtime.middleware.inproc.transport:open_transport",
 )

@@ -8,8 +8,6 @@ for another one.
 from __future__ import annotations
 
 import contextlib
-import os
-import select
 import socket
 import threading
 import weakref
@@ -22,6 +20,7 @@ from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import InterfaceMismatch, MalformedMessage, Timeout
 from robocomp_dsl.runtime.middleware.local import packets
+from robocomp_dsl.runtime.middleware.local.brief_poll import BriefPoll
 from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
 from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket, MappedFiles
 from robocomp_dsl.runtime.middleware.local.memory_pool import MemoryPool
@@ -30,40 +29,19 @@ from robocomp_dsl.runtime.middleware.local.ports import head_of, hello_packet, p
 from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
-POLLS = 30
-"""Before it sleeps, a caller looks so often whether the reply is there, and yields the processor:
-about 30 us. To wake a sleeping thread on an idle processor takes longer."""
-CALLS_WITHOUT_POLL = 31
-"""After a reply that took longer."""
-
 
 class Connection:
     """The connection of one thread to a server."""
 
-    __slots__ = ("__weakref__", "files", "poll", "socket", "without_poll")
+    __slots__ = ("__weakref__", "files", "socket", "wait_briefly")
 
     def __init__(self, opened: socket.socket) -> None:
         self.socket = opened
         self.files = MappedFiles()
-        poll = select.poll()
-        poll.register(opened, select.POLLIN)
-        self.poll: Callable[[int], Any] = poll.poll
-        self.without_poll = 0
+        self.wait_briefly = BriefPoll(opened).wait
 
     def __del__(self) -> None:
         self.socket.close()
-
-    def wait_briefly(self) -> None:
-        """Return when a reply has come, or soon."""
-        if self.without_poll:
-            self.without_poll -= 1
-            return
-        poll, give_way = self.poll, os.sched_yield
-        for _ in range(POLLS):
-            if poll(0):
-                return
-            give_way()
-        self.without_poll = CALLS_WITHOUT_POLL
 
 
 class LocalClient:
@@ -103,14 +81,18 @@ class LocalClient:
         head = head_of(packets.QUERY, self._at.interface, operation)
         result = head_of(packets.RESULT, self._at.interface, operation)
         of_thread = self._of_thread
-        receive, send = packets.receive, packets.send
+        receive = packets.receive
         decode: Callable[[Any], Any] = operation.decode_reply
 
         def query(message: Message) -> Any:
             body: Body
             connection = getattr(of_thread, "connection", None) or self._open(operation)
             try:
-                counts.bytes_out += send(connection.socket, head, message)
+                if isinstance(message, bytes):
+                    connection.socket.send(head + message)
+                    counts.bytes_out += len(message)
+                else:
+                    counts.bytes_out += packets.send(connection.socket, head, message)
                 connection.wait_briefly()
                 reply = receive(connection.socket, connection.files)
                 if isinstance(reply, bytes):

@@ -13,7 +13,7 @@ MIDDLEWARE = MiddlewareDescription(
     capabilities=Capabilities(
         attaches_subscribers=True,
         sequence_numbers=True,
-        qos=frozenset({"reliable"}),
+        qos=frozenset({"reliable", "keep_all", "latched"}),
         max_message_bytes=MAX_MESSAGE_BYTES,
     ),
     opener="robocomp_dsl.runtime.middleware.local.transport:open_transport",

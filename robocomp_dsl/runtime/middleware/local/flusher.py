@@ -8,16 +8,24 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from robocomp_dsl.runtime.component.user_errors import describe_error
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.middleware.local.subscriber_link import SubscriberLink
 
 SHORTEST_S = 0.001
 LONGEST_S = 0.02
 """Period for subscribers that have received nothing for a while."""
+
+
+class QueuedLink(Protocol):
+    """A link with a queue of its own."""
+
+    @property
+    def has_queue(self) -> bool:
+        """Whether packets wait."""
+
+    def flush(self) -> bool:
+        """Send what there is room for; returns whether that was anything."""
 
 
 class Flusher:
@@ -25,15 +33,13 @@ class Flusher:
 
     def __init__(self, fail: Callable[[str], None]) -> None:
         self._fail = fail
-        self._links: set[SubscriberLink] = set()
+        self._links: set[QueuedLink] = set()
         self._changed = threading.Condition()
         self._thread: threading.Thread | None = None
         self._closed = False
 
-    def add(self, link: SubscriberLink) -> None:
+    def add(self, link: QueuedLink) -> None:
         """Flush a link until its queue is empty."""
-        if link in self._links:
-            return
         with self._changed:
             self._links.add(link)
             self._changed.notify()
@@ -68,6 +74,6 @@ class Flusher:
                 links = list(self._links)
             moved = [link.flush() for link in links]
             with self._changed:
-                # Under its own lock, `put` adds a link again after a queue was empty.
+                # A link adds itself after a packet was queued: it stays, or it is added again.
                 self._links -= {link for link in links if not link.has_queue}
             period = SHORTEST_S if any(moved) else min(2 * period, LONGEST_S)

@@ -21,7 +21,7 @@ from typing import Protocol
 from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.component.user_errors import describe_error
 from robocomp_dsl.runtime.middleware.local import packets
-from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket, MappedFiles
+from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket
 from robocomp_dsl.runtime.middleware.local.ports import Hello, make_address, parse_hello
 from robocomp_dsl.runtime.middleware.local.socket_file import SocketFile
 
@@ -48,7 +48,7 @@ class AcceptingPort(Protocol):
 class Listener:
     """The socket of a component and its thread, started with the first port."""
 
-    def __init__(self, folder: Callable[[], Path], fail: Callable[[str], None]) -> None:
+    def __init__(self, folder: Path, fail: Callable[[str], None]) -> None:
         self._folder = folder
         self._fail = fail
         self._file: SocketFile | None = None
@@ -65,7 +65,7 @@ class Listener:
         """Accept connections for a port; returns its address. Raises `MiddlewareError`."""
         with self._lock:
             if self._file is None:
-                self._file = SocketFile(self._folder())
+                self._file = SocketFile(self._folder)
                 self._thread = threading.Thread(target=self._run, name="local", daemon=True)
                 self._thread.start()
             self._number += 1
@@ -130,7 +130,7 @@ class Listener:
     def _greet(self, accepted: socket.socket) -> None:
         """Read the first packet of a connection, and pass it to its port."""
         try:
-            hello = parse_hello(packets.receive(accepted, MappedFiles(), socket.MSG_DONTWAIT))
+            hello = parse_hello(packets.receive_plain(accepted))
             port = self._ports.get(hello.port)
             if port is None:
                 accepted.close()  # the port was closed: the peer sees that it is lost

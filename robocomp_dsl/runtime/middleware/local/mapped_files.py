@@ -46,9 +46,9 @@ class MappedFiles:
         """
         try:
             memory = self._map(descriptor, len(PADDING) + size)
-        except OSError as error:
+        except (OSError, ValueError) as error:
             os.close(descriptor)
-            raise MalformedPacket(f"cannot map {size} bytes: {error.strerror}") from None
+            raise MalformedPacket(f"cannot map {size} bytes: {error}") from None
         except MalformedPacket:
             os.close(descriptor)
             raise

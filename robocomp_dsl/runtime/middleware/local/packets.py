@@ -11,7 +11,9 @@
     FAILURE      error reply of `answers`
 
 A body of more than `INLINE_BYTES` is in a memory file (`memory_pool`): the flag `SHARED` is set,
-the packet has the size of the body in its place, and the descriptor of the file beside it.
+the packet has the size of the body in its place, and the descriptor of the file beside it. The
+packet `ANNOUNCEMENT` precedes it, because to receive without descriptors is faster, and discards
+those that nobody expects.
 """
 
 from __future__ import annotations
@@ -21,7 +23,8 @@ import socket
 import struct
 import weakref
 from array import array
-from typing import TypeAlias
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket, MappedFiles
 from robocomp_dsl.runtime.middleware.local.memory_pool import SharedMessage
@@ -39,7 +42,7 @@ NUMBER_BYTES = 16
 MAX_PACKET = INLINE_BYTES + 64
 DESCRIPTOR_SPACE = socket.CMSG_SPACE(4)
 MAX_NAME_BYTES = 512
-_CLOEXEC = socket.MSG_CMSG_CLOEXEC
+ANNOUNCEMENT = b"\0"
 _CUT = socket.MSG_TRUNC | socket.MSG_CTRUNC
 
 Body: TypeAlias = bytes | memoryview
@@ -103,25 +106,58 @@ def send(to: socket.socket, head: bytes, message: bytes | SharedMessage) -> int:
     return message.size
 
 
-def send_shared(to: socket.socket, start: bytes, message: SharedMessage, flags: int = 0) -> None:
+def send_shared(to: socket.socket, start: bytes, message: SharedMessage) -> None:
     """Send a packet that begins with `start` and has its body in shared memory."""
     head = start[:1] + bytes((SHARED,)) + start[2:] + SIZE.pack(message.size)
     rights = (socket.SOL_SOCKET, socket.SCM_RIGHTS, array("i", (message.descriptor,)))
-    to.sendmsg((head,), (rights,), flags)
+    to.send(ANNOUNCEMENT)
+    to.sendmsg((head,), (rights,))
 
 
 def receive(sender: socket.socket, files: MappedFiles, flags: int = 0) -> Received:
     """The next packet. Raises `MalformedPacket`, and `OSError` at the end of the connection."""
-    flags |= _CLOEXEC
     try:
-        data, ancillary, state, _ = sender.recvmsg(MAX_PACKET, DESCRIPTOR_SPACE, flags)
+        data = sender.recv(MAX_PACKET, flags)
     except ConnectionResetError:
-        # The peer has closed without reading everything; what it sent before comes after this.
-        data, ancillary, state, _ = sender.recvmsg(MAX_PACKET, DESCRIPTOR_SPACE, flags)
-    if ancillary or state & _CUT:
-        return _map_packet(data, ancillary, state, files)
+        data = sender.recv(MAX_PACKET, flags)  # see `_receive_to_the_end`
+    if len(data) < HEAD.size or len(data) == MAX_PACKET:
+        return _receive_other(data, sender, files)
+    return data
+
+
+def receive_plain(sender: socket.socket) -> bytes:
+    """As `receive`, but without waiting, and no packet with a descriptor."""
+    data: bytes = _receive_to_the_end(sender.recv, MAX_PACKET, socket.MSG_DONTWAIT)
     if not data:
         raise ConnectionResetError
+    if len(data) < HEAD.size or len(data) == MAX_PACKET:
+        raise MalformedPacket("a packet is too short or too long")
+    return data
+
+
+def _receive_to_the_end(receive_: Callable[..., Any], *arguments: int) -> Any:
+    """Receive; of a peer that has closed without reading everything, what it sent before.
+
+    The kernel reports such an end once before the packets that are still in the socket.
+    """
+    try:
+        return receive_(*arguments)
+    except ConnectionResetError:
+        return receive_(*arguments)
+
+
+def _receive_other(data: bytes, sender: socket.socket, files: MappedFiles) -> Received:
+    """The packet after an announcement; other packets of this size are malformed."""
+    while data == ANNOUNCEMENT:
+        data, ancillary, state, _ = _receive_to_the_end(
+            sender.recvmsg, MAX_PACKET, DESCRIPTOR_SPACE, socket.MSG_CMSG_CLOEXEC
+        )
+        if ancillary or state & _CUT:
+            return _map_packet(data, ancillary, state, files)
+    if not data:
+        raise ConnectionResetError
+    if len(data) < HEAD.size or len(data) == MAX_PACKET:
+        raise MalformedPacket("a packet is too short or too long")
     return data
 
 

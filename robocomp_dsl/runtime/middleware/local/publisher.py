@@ -7,26 +7,20 @@ for a limited time.
 
 from __future__ import annotations
 
-import logging
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
+from robocomp_dsl.runtime.middleware.local.flusher import Flusher
 from robocomp_dsl.runtime.middleware.local.memory_pool import MemoryPool
 from robocomp_dsl.runtime.middleware.local.ports import head_of
-from robocomp_dsl.runtime.middleware.local.subscriber_link import SubscriberLink
+from robocomp_dsl.runtime.middleware.local.subscriber_socket import SubscriberSocket
 from robocomp_dsl.runtime.middleware.transport import BoundOperation
 from robocomp_dsl.runtime.presence.port_record import PortRecord
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.middleware.local.flusher import Flusher
-
-log = logging.getLogger("robocomp")
 
 
 class LocalPublisher:
@@ -39,8 +33,8 @@ class LocalPublisher:
         self._at = at
         self._flusher = flusher
         self._lock = threading.Lock()
-        self._links: dict[PortRecord, SubscriberLink] = {}
-        self._current: tuple[SubscriberLink, ...] = ()
+        self._links: dict[PortRecord, SubscriberSocket] = {}
+        self._current: tuple[SubscriberSocket, ...] = ()
 
     def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         """See `transport.Publisher`."""
@@ -68,7 +62,7 @@ class LocalPublisher:
         """See `transport.Publisher`."""
         with self._lock:
             if subscriber not in self._links:
-                link = SubscriberLink(self._at, subscriber, self._flusher)
+                link = SubscriberSocket(self._at, subscriber, self._flusher)
                 self._links[subscriber] = link
                 self._current = tuple(self._links.values())
 

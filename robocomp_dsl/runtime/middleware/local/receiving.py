@@ -18,8 +18,9 @@ from struct import Struct
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from robocomp_dsl.runtime.codec.failures import encode_failure
-from robocomp_dsl.runtime.component.interface import Pattern
+from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.component.receiver import QueueClosed
+from robocomp_dsl.runtime.errors import InterfaceMismatch, MiddlewareError
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
 from robocomp_dsl.runtime.middleware.local.listener import Listener
@@ -55,7 +56,11 @@ class ReceivingPort:
         self.hash = port.interface.hash
         self.name = f"{port.at.component}.{port.at.port}"
         self.start_size = packets.HEAD.size if kind == packets.QUERY else _NUMBER_END
-        self.handlers = dict(map(self._handler, port.operations.values()))
+        self.handlers = {
+            head_of(packets.QUERY, port.interface, operation): _refuse(operation)
+            for operation in port.interface.operations
+        }
+        self.handlers |= map(self._handler, port.operations.values())
         self.closed = False
         self._connections: set[_Connection] = set()
         self._lock = threading.Lock()
@@ -73,7 +78,7 @@ class ReceivingPort:
             self._connections.add(connection)
         take = connection.take
         qos = self.port.at.qos
-        if self.kind == packets.PUBLICATION and qos.depth and not qos.reliable:
+        if self.kind == packets.PUBLICATION and qos.depth and not qos.holds_publisher:
             take = connection.take_latest
         self.port.receive(take, connection.handle)
 
@@ -124,7 +129,7 @@ class ReceivingPort:
                 reply = encode(handle(decode(body)))
             except BaseException as error:
                 served.report(error)
-                head, reply = failure, encode_failure(operation, error)[: packets.INLINE_BYTES]
+                head, reply = failure, self._failure(operation, error)
             try:
                 counts.bytes_out += packets.send(connection, head, reply)
             except OSError:  # the caller has ended, or takes no replies
@@ -132,6 +137,16 @@ class ReceivingPort:
                     connection.shutdown(socket.SHUT_RDWR)
 
         return query
+
+    def _failure(self, operation: Operation, error: BaseException) -> Message:
+        """The error reply for an exception."""
+        data = encode_failure(operation, error)
+        if len(data) <= packets.INLINE_BYTES:
+            return data
+        try:
+            return self._pool.message((data,), len(data))
+        except MiddlewareError as no_memory:
+            return encode_failure(operation, no_memory)
 
 
 def _command_handler(served: IncomingOperation) -> Handler:
@@ -160,6 +175,17 @@ def _publication_handler(served: IncomingOperation) -> Handler:
             served.report(error)
 
     return publication
+
+
+def _refuse(operation: Operation) -> Handler:
+    """The handler of queries of an operation that the component does not serve."""
+    data = encode_failure(operation, InterfaceMismatch("there is no such operation"))
+
+    def refuse(connection: socket.socket, start: bytes, _body: Any) -> None:
+        with contextlib.suppress(OSError):
+            connection.send(bytes((packets.FAILURE,)) + start[1:] + data)
+
+    return refuse
 
 
 def _limit(queue: deque[Received]) -> None:
@@ -221,6 +247,8 @@ class _Connection:
 
     def handle(self, packet: Received) -> None:
         """Pass a packet to the handler of its operation."""
+        if self._port.closed:
+            return
         size = self._start_size
         body: Body
         if isinstance(packet, bytes):
@@ -232,7 +260,7 @@ class _Connection:
             self._port.malformed(MalformedPacket("no packet of an operation"), self._sender)
             with contextlib.suppress(OSError):
                 self.socket.shutdown(socket.SHUT_RDWR)
-        elif not self._port.closed:
+        else:
             handler(self.socket, start, body)
 
     def _end(self) -> None:

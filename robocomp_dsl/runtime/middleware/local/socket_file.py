@@ -18,6 +18,7 @@ from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.file_lock import FileLock, try_lock
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.presence.stale_sockets import LOCK_SUFFIX, sweep_sockets
+from robocomp_dsl.runtime.private_folder import UnsafeFolder, private_folder
 
 BACKLOG = 128
 
@@ -28,11 +29,13 @@ class SocketFile:
     def __init__(self, folder: Path) -> None:
         """Create it. Raises `MiddlewareError`."""
         try:
-            sweep_sockets(folder)
+            sweep_sockets(private_folder(folder))
             self.path, self._lock = _claim(folder)
             self.socket = packets.new_socket(0)
             self.socket.bind(str(self.path))
             self.socket.listen(BACKLOG)
+        except UnsafeFolder as error:
+            raise MiddlewareError(str(error)) from None
         except OSError as error:
             reason = error.strerror or error
             raise MiddlewareError(f"no socket can be created in {folder}: {reason}") from None

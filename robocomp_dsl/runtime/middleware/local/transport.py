@@ -9,11 +9,9 @@ from __future__ import annotations
 
 import threading
 import weakref
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.client import LocalClient
 from robocomp_dsl.runtime.middleware.local.flusher import Flusher
@@ -23,7 +21,6 @@ from robocomp_dsl.runtime.middleware.local.publisher import LocalPublisher
 from robocomp_dsl.runtime.middleware.local.receiving import ReceivingPort
 from robocomp_dsl.runtime.middleware.transport import TransportContext
 from robocomp_dsl.runtime.presence.port_record import PortRecord
-from robocomp_dsl.runtime.private_folder import UnsafeFolder, private_folder
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
@@ -42,18 +39,12 @@ class LocalTransport:
     """See `transport.Transport`."""
 
     def __init__(self, context: TransportContext) -> None:
-        self._context = context
-        self._listener = Listener(self._folder, context.fail)
+        # No reference to itself or the context: what is closed is freed at once.
+        self._listener = Listener(context.folder, context.fail)
         self._flusher = Flusher(context.fail)
         self._pool = MemoryPool()
         self._lock = threading.Lock()
         self._ports: weakref.WeakSet[_AnyPort] = weakref.WeakSet()
-
-    def _folder(self) -> Path:
-        try:
-            return private_folder(self._context.folder)
-        except UnsafeFolder as error:
-            raise MiddlewareError(str(error)) from None
 
     def serve(self, port: IncomingPort) -> ReceivingPort:
         """See `transport.Transport`."""

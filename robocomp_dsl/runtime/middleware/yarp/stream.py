@@ -6,6 +6,7 @@ In: a socket. Out: bytes. Memory grows only with bytes that have arrived.
 from __future__ import annotations
 
 import contextlib
+import os
 import select
 import socket
 import time
@@ -36,6 +37,8 @@ def connect(at: tuple[str, int], timeout: float) -> Stream:
 
 def reason(error: BaseException) -> str:
     """Why the system refused, without its number."""
+    if isinstance(error, OSError) and error.errno and not isinstance(error, socket.gaierror):
+        return os.strerror(error.errno)  # without what Python's functions add
     return (isinstance(error, OSError) and error.strerror) or str(error) or "connection failed"
 
 

@@ -8,7 +8,7 @@ MIDDLEWARE = MiddlewareDescription(
     capabilities=Capabilities(
         sequence_numbers=True,
         reports_source=True,
-        qos=frozenset({"reliable", "priority"}),
+        qos=frozenset({"reliable", "keep_all", "latched", "priority"}),
     ),
     opener="robocomp_dsl.runtime.middleware.zenoh.transport:open_transport",
     requires=("zenoh",),

@@ -35,7 +35,7 @@ class ZenohPublisher:
         """See `Publisher`."""
         key = f"{keys.port_key(self._domain, 't', self._at)}/{keys.escape_chunk(operation.name)}"
         publisher: Any
-        if self._at.qos.reliable:
+        if self._at.qos.holds_publisher:
             # The transport gave a session that holds what it would drop.
             options = publisher_options(replace(self._at.qos, reliable=False))
             declared = self._session.declare_publisher(key, **options)

@@ -15,8 +15,9 @@ import zenoh
 from robocomp_dsl.runtime.codec.failures import encode_failure
 from robocomp_dsl.runtime.component.interface import Pattern
 from robocomp_dsl.runtime.component.naming import ANY, on_same_branch
+from robocomp_dsl.runtime.connection import bounded_queue
+from robocomp_dsl.runtime.connection.bounded_queue import KEEP_ALL_DEPTH, BoundedQueue
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
-from robocomp_dsl.runtime.middleware.zenoh.reliable_queue import ReliableQueue
 from robocomp_dsl.runtime.presence import keys
 
 DEPTH = 256
@@ -38,7 +39,7 @@ class ServedZenohPort:
             keys.escape_chunk(name): operation for name, operation in port.operations.items()
         }
         self._declared: list[Any] = []
-        self._reliable_queues: list[ReliableQueue] = []
+        self._bounded_queues: list[BoundedQueue[zenoh.Sample]] = []
 
     def serve(self, session: zenoh.Session) -> None:
         """Answer queries, and receive commands if the interface has any."""
@@ -51,11 +52,8 @@ class ServedZenohPort:
             key = keys.port_key(self._domain, "c", self.at)
             self._drain(session.declare_subscriber(f"{key}/*", channel), self._dispatch_samples())
 
-    def subscribe(self, session: zenoh.Session, hold_s: float) -> None:
-        """Subscribe to the publishers that the port is connected to, or to all.
-
-        `hold_s`: how long a full reliable queue may hold them.
-        """
+    def subscribe(self, session: zenoh.Session) -> None:
+        """Subscribe to the publishers that the port is connected to, or to all."""
         root = keys.interface_key(self._domain, "t", self.at)
         for peer in self.at.peers or (ANY,):
             component, _, port = peer.partition(".")
@@ -64,9 +62,13 @@ class ServedZenohPort:
             handle_sample = self._dispatch_samples()
             if component == ANY and "/" in self.at.component:
                 handle_sample = self._same_branch_only(handle_sample)
-            depth = self.at.qos.depth or DEPTH
-            if self.at.qos.reliable:
-                self._drain_reliable(session, key, ReliableQueue(depth, hold_s), handle_sample)
+            qos = self.at.qos
+            depth = qos.depth or (KEEP_ALL_DEPTH if qos.keep_all else DEPTH)
+            if qos.holds_publisher:
+                samples = BoundedQueue[zenoh.Sample](
+                    depth, bounded_queue.HOLD_S, self._port.count_held
+                )
+                self._drain_bounded(session, key, samples, handle_sample)
             else:
                 # A full queue drops the oldest message.
                 channel: Any = zenoh.handlers.RingChannel(depth)
@@ -86,12 +88,25 @@ class ServedZenohPort:
 
         return choose
 
-    def _drain_reliable(
-        self, session: zenoh.Session, key: str, samples: ReliableQueue, handle: SampleHandler
+    def _drain_bounded(
+        self,
+        session: zenoh.Session,
+        key: str,
+        samples: BoundedQueue[zenoh.Sample],
+        handle: SampleHandler,
     ) -> None:
-        put = zenoh.handlers.Callback(samples.put, indirect=False)
-        self._reliable_queues.append(samples)
-        self._declared.append(session.declare_subscriber(key, put))
+        """Pass samples through a queue that holds the receive thread of zenoh while it is full.
+
+        Held for longer than the queue allows, the thread could not serve other links: peers would
+        take the process for dead after 10 s. Sequence numbers count what is dropped.
+        """
+
+        def put(sample: zenoh.Sample) -> None:
+            samples.put(sample, len(sample.payload))
+
+        self._bounded_queues.append(samples)
+        callback = zenoh.handlers.Callback(put, indirect=False)
+        self._declared.append(session.declare_subscriber(key, callback))
         self._port.receive(samples.take, handle)
 
     def _drain(self, declared: Any, handle: Callable[[Any], None]) -> None:
@@ -127,7 +142,7 @@ class ServedZenohPort:
 
     def close(self) -> None:
         """Receive no more messages; running handlers may finish."""
-        for samples in self._reliable_queues:
+        for samples in self._bounded_queues:
             samples.close()
         for entry in self._declared:
             entry.undeclare()

@@ -10,7 +10,6 @@ import zenoh
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.middleware.transport import TransportContext
-from robocomp_dsl.runtime.middleware.zenoh import reliable_queue
 from robocomp_dsl.runtime.middleware.zenoh.client import ZenohServiceClient
 from robocomp_dsl.runtime.middleware.zenoh.held_publisher import HOLD_S
 from robocomp_dsl.runtime.middleware.zenoh.publisher import ZenohPublisher
@@ -47,7 +46,7 @@ class ZenohTransport:
 
     def advertise(self, at: Endpoint) -> ZenohPublisher:
         """See `Transport`."""
-        session = self._reliable_session() if at.qos.reliable else self._session
+        session = self._reliable_session() if at.qos.holds_publisher else self._session
         return ZenohPublisher(session, self._domain, at, self._id)
 
     def _reliable_session(self) -> zenoh.Session:
@@ -59,7 +58,7 @@ class ZenohTransport:
     def subscribe(self, port: IncomingPort) -> ServedZenohPort:
         """See `Transport`."""
         served = ServedZenohPort(port, self._domain, self._id)
-        served.subscribe(self._session, reliable_queue.HOLD_S)
+        served.subscribe(self._session)
         return served
 
     def close(self) -> None:

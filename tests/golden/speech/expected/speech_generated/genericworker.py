@@ -26,10 +26,11 @@ class GenericWorker(Component):
                 "Speech",
                 SPEECH,
                 {"say": "Speech_say", "isBusy": "Speech_isBusy", "stop": "Speech_stop"},
+                middlewares=("zenoh", "inproc"),
             ),
         ),
         requires=(
-            CalledPort("Range", RangeProxy, "range_proxy"),
+            CalledPort("Range", RangeProxy, "range_proxy", middlewares=("zenoh",)),
             CalledPort("front", RangeProxy, "front_proxy"),
         ),
         publishes=(

@@ -1,4 +1,4 @@
-"""The queue of a reliable subscription, alone and with a subscriber whose handler is stuck."""
+"""The queue of a subscription that holds its publishers, alone and with a stuck handler."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import pytest
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.receiver import QueueClosed
+from robocomp_dsl.runtime.connection import bounded_queue
+from robocomp_dsl.runtime.connection.bounded_queue import BoundedQueue
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
-from robocomp_dsl.runtime.middleware.zenoh import reliable_queue
-from robocomp_dsl.runtime.middleware.zenoh.reliable_queue import ReliableQueue
 from tests.middleware.network import Network
 from tests.middleware.probe_types import NEWS, NewsProxy
 from tests.support.waiting import wait_until
@@ -24,8 +24,8 @@ def sample(number: int) -> Any:
     return SimpleNamespace(number=number)
 
 
-def test_reliable_queue_keeps_order_and_holds_until_there_is_room() -> None:
-    samples = ReliableQueue(2, 60.0)
+def test_bounded_queue_keeps_order_and_holds_until_there_is_room() -> None:
+    samples = BoundedQueue[Any](2, 60.0)
     sender = threading.Thread(target=lambda: [samples.put(sample(i)) for i in range(5)])
     sender.start()
     assert [samples.take().number for _ in range(5)] == [0, 1, 2, 3, 4]
@@ -33,24 +33,25 @@ def test_reliable_queue_keeps_order_and_holds_until_there_is_room() -> None:
     assert not sender.is_alive()
 
 
-def test_reliable_queue_drops_for_stuck_subscriber_until_it_takes_again() -> None:
-    samples = ReliableQueue(2, 0.01)
+def test_bounded_queue_drops_for_stuck_subscriber_until_it_takes_again() -> None:
+    held: list[None] = []
+    samples = BoundedQueue[Any](2, 0.01, lambda: held.append(None))
     for number in range(100):
         samples.put(sample(number))
+    assert len(held) == 98
     assert [samples.take().number for _ in range(2)] == [0, 1]
     samples.put(sample(100))
     assert samples.take().number == 100
 
 
-def test_reliable_queue_close_ends_put_and_take() -> None:
-    samples = ReliableQueue(1, 60.0)
+def test_bounded_queue_close_ends_put_and_take() -> None:
+    samples = BoundedQueue[Any](1, 60.0)
     samples.put(sample(0))
     sender = threading.Thread(target=samples.put, args=(sample(1),))
     sender.start()
     samples.close()
     sender.join(60)
     assert not sender.is_alive()
-    assert samples.take().number == 0
     for _ in range(2):
         with pytest.raises(QueueClosed):
             samples.take()
@@ -59,7 +60,7 @@ def test_reliable_queue_close_ends_put_and_take() -> None:
 def test_stuck_reliable_subscriber_still_answers_and_counts_its_losses(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(reliable_queue, "HOLD_S", 0.1)
+    monkeypatch.setattr(bounded_queue, "HOLD_S", 0.1)
     network = Network("zenoh")
     release, received = threading.Event(), []
 

@@ -10,25 +10,22 @@ import errno
 import fcntl
 import logging
 import select
-import socket
 import termios
 import threading
 import time
 from collections import deque
 from struct import Struct
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.local import packets
-from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket, MappedFiles
+from robocomp_dsl.runtime.middleware.local.flusher import Flusher
+from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket
 from robocomp_dsl.runtime.middleware.local.memory_pool import SharedMessage
 from robocomp_dsl.runtime.middleware.local.ports import hello_packet, parse_address
 from robocomp_dsl.runtime.presence.port_record import PortRecord
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.middleware.local.flusher import Flusher
 
 HOLD_S = 1.0
 """How long a reliable subscriber that takes nothing may hold a publication."""
@@ -47,14 +44,14 @@ log = logging.getLogger("robocomp")
 _Entry: TypeAlias = "tuple[bytes, SharedMessage | None, OperationCounts]"
 
 
-class SubscriberLink:
+class SubscriberSocket:
     """Never blocks, unless the publisher is reliable. `lost`: the subscriber has ended."""
 
     def __init__(self, at: Endpoint, subscriber: PortRecord, flusher: Flusher) -> None:
         self.lost = False
         self._subscriber = subscriber.name
         self._flusher = flusher
-        self._reliable = bool(at.qos.reliable)
+        self._reliable = at.qos.holds_publisher
         self._path, port = parse_address(subscriber.address)
         self._hello = hello_packet(at, port, packets.PUBLICATION)
         self._lock = threading.Lock()
@@ -163,11 +160,11 @@ class SubscriberLink:
     def _read_greeting(self) -> None:
         """The depth of the subscriber, if it has answered."""
         try:
-            answer = packets.receive(self._socket, MappedFiles(), socket.MSG_DONTWAIT)
+            answer = packets.receive_plain(self._socket)
         except (OSError, MalformedPacket):
             return
         end = packets.HEAD.size + packets.DEPTH.size
-        if isinstance(answer, bytes) and len(answer) == end and answer[0] == packets.READY:
+        if len(answer) == end and answer[0] == packets.READY:
             self._greeted = True
             self._depth = max(1, packets.DEPTH.unpack(answer[-packets.DEPTH.size :])[0])
 

@@ -1,0 +1,47 @@
+"""`rcdeploy disconnect`: removes a connection. In: two ports. Out: the change."""
+
+from __future__ import annotations
+
+import click
+
+from robocomp_dsl.cli.rcdeploy.inspect.completion import complete_ports
+from robocomp_dsl.cli.rcdeploy.inspect.target import InspectCommand, open_client, resolve_domain
+
+
+@click.command(cls=InspectCommand)
+@click.argument(
+    "source",
+    metavar="COMPONENT.PORT",
+    shell_complete=complete_ports("requires", "publishes", level="port"),
+)
+@click.argument(
+    "peer",
+    metavar="COMPONENT.PORT|NAME",
+    shell_complete=complete_ports("implements", "subscribesTo", level="port"),
+)
+def command(source: str, peer: str, *, deployment: str | None, domain: str | None) -> None:
+    """Remove the connection of two ports while the components run.
+
+    The peer may have ended, or be a program that is no component; then the first port is the one
+    that looks for it.
+    """
+    from robocomp_dsl.cli.program import CliError  # noqa: PLC0415
+    from robocomp_dsl.cli.rcdeploy.inspect import connection_calls as calls  # noqa: PLC0415
+
+    target = resolve_domain(deployment, domain)
+    with open_client(target) as client:
+        searching = [
+            end for end in calls.find_ports(client, target, source) if end.role in calls.SEARCHING
+        ]
+        try:
+            ends = calls.find_ends(client, target, source, peer)
+            own, name, connection = ends.searching, f"/{ends.found.name}", str(ends)
+        except CliError:
+            if len(searching) != 1:
+                raise
+            own, name = searching[0], f"/{peer.removeprefix('/')}"
+            connection = f"{own.name} -> {peer}"
+        proxy = calls.connections_proxy(client, own.component)
+        with calls.refusals_of(own.component):
+            proxy.disconnect(own.port, name)
+    print(f"{connection}: disconnected until {own.component} ends; the deployment is unchanged")

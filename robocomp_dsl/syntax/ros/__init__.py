@@ -1,0 +1,1 @@
+"""ROS definitions: `.msg`, `.srv` and `.action` files."""
