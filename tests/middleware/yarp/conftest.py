@@ -76,9 +76,7 @@ class YarpComponent:
         every = {o.name: handlers.get(o.name, lambda *_: None) for o in interface.operations}
         self.ports.serve(self.endpoint(interface), every, self.group)
 
-    def subscribe(
-        self, interface: Interface, handler: Callable[..., Any], *external: str
-    ) -> None:
+    def subscribe(self, interface: Interface, handler: Callable[..., Any], *external: str) -> None:
         handlers = {operation.name: handler for operation in interface.operations}
         self.ports.subscribe(self.endpoint(interface, *external), handlers, self.group)
 
@@ -86,6 +84,12 @@ class YarpComponent:
         """A function that calls an operation of another port."""
         channel = self.ports.proxy(self.endpoint(interface, *external))
         return channel.bind(interface.operation(operation))
+
+    def outputs(self, port: str) -> Callable[[], list[str]]:
+        """A function that lists the readers of a published port."""
+        transport: Any = self.ports.transport("yarp")
+        links = transport.outputs[port]
+        return lambda: list(links.carriers())
 
     def publisher(self, interface: Interface, *external: str) -> Callable[..., None]:
         """A function that publishes the only operation of a topic."""

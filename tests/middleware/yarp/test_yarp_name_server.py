@@ -46,7 +46,10 @@ def ask(server: NameServer, *requests: str) -> list[str]:
         ("register ...", ["registration name /tmp/port/1 ip 127.0.0.1 port 10002 type tcp"]),
         ("register /x tcp ... ...", ["registration name /x ip 127.0.0.1 port 10002 type tcp"]),
         ("register /x mcast ... ...", ["registration name /x ip 224.1.1.1 port 10002 type mcast"]),
-        ("register /x tcp 10.0.0.1 99999999", ["registration name /x ip 10.0.0.1 port 10002 type tcp"]),
+        (
+            "register /x tcp 10.0.0.1 99999999",
+            ["registration name /x ip 10.0.0.1 port 10002 type tcp"],
+        ),
         ("unregister /fake", []),
         ("list /fake", ["registration name /fake ip 127.0.0.1 port 12345 type tcp"]),
         ("list /fa", []),

@@ -65,7 +65,7 @@ def rpc(names: NameClient, name: str, request: str) -> str:
         ("add 1 2", "[ok] 3"),
         ("[add] 1 2.0", "[ok] 3"),
         ("isReady", "[ok] true"),
-        ('plan (1.0 2.0 "the moon")', re.escape('[fail] "NoPath: NoPath(reason=\'no way to the')),
+        ('plan (1.0 2.0 "the moon")', re.escape("[fail] \"NoPath: NoPath(reason='no way to the")),
         ("add 1", r'\[fail\] ".*has 1 values, but should have: a b" malformed'),
         ("add 1 x", r'\[fail\] ".*field b.*`x` is no int" malformed'),
         ("add 1 3000000000", r"\[fail\] .*3000000000 does not fit into a int.* malformed"),

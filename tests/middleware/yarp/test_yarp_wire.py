@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import socket
 from collections.abc import Iterator
 from typing import Any
@@ -104,10 +105,8 @@ class Client:
         return self
 
     def expect_end(self) -> None:
-        try:
+        with contextlib.suppress(ConnectionResetError):
             assert self.socket.recv(1) == b""
-        except ConnectionResetError:
-            pass
         self.socket.close()
 
 
@@ -212,7 +211,7 @@ def test_admin_properties_are_kept(client: Client) -> None:
 def test_admin_removes_an_input(client: Client, port: YarpPort) -> None:
     client.send(b"CONNECT /w\r\n").expect(b"Welcome /w\r\n")
     admin = Client(port).send(b"CONNACK admin\r\n").expect(b"Welcome admin\r\n")
-    admin.send(b"a\r\n[del] \"/w\"\r\n")
+    admin.send(b'a\r\n[del] "/w"\r\n')
     admin.expect(b'0 "Removed connection from /w to /srv\\r\\n"\r\n<ACK>\r\n')
     client.expect_end()
     admin.socket.close()
@@ -234,7 +233,11 @@ def test_port_describes_itself(client: Client, port: YarpPort) -> None:
         wire.set_up("tcp", "/w")[:8] + b"\xff\xff\xff\x7f" + b"x" * 2000,
         wire.set_up("fast_tcp", "/w") + b"\0" * 64,
         wire.set_up("fast_tcp", "/w") + wire.INDEX + b"\1\1" + b"\xff" * 16,
-        wire.set_up("fast_tcp", "/w") + wire.INDEX + b"\2\1" + b"\xff" * 8 + b"\xff\xff\xff\x7f" * 3,
+        wire.set_up("fast_tcp", "/w")
+        + wire.INDEX
+        + b"\2\1"
+        + b"\xff" * 8
+        + b"\xff\xff\xff\x7f" * 3,
         wire.set_up("fast_tcp", "/w") + wire.INDEX + b"\1\1" + b"\xff" * 8 + b"\2\0\0\0" * 3,
         b"",
         b"YA",
@@ -283,7 +286,9 @@ def test_closed_port_ends_its_connections(client: Client, port: YarpPort) -> Non
 
 
 def test_port_in_use_is_reported(port: YarpPort) -> None:
-    with pytest.raises(MiddlewareError, match=r"cannot listen at 127\.0\.0\.1:\d+: Address already"):
+    with pytest.raises(
+        MiddlewareError, match=r"cannot listen at 127\.0\.0\.1:\d+: Address already"
+    ):
         YarpPort("/other", (LOOPBACK, port.number))
 
 

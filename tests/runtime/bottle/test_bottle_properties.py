@@ -23,6 +23,7 @@ from robocomp_dsl.runtime.codec.bottle.values import (
     Int16,
     Int64,
     Vocab,
+    Vocab64,
     identical,
 )
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
@@ -46,9 +47,7 @@ _scalars = st.one_of(
 _bottles: st.SearchStrategy[list[Any]] = st.lists(
     st.recursive(
         _scalars,
-        lambda inner: st.one_of(
-            st.lists(inner, max_size=4), st.lists(inner, max_size=3).map(Dict)
-        ),
+        lambda inner: st.one_of(st.lists(inner, max_size=4), st.lists(inner, max_size=3).map(Dict)),
         max_leaves=12,
     ),
     max_size=5,
@@ -156,6 +155,4 @@ def test_write_binary_refuses_what_no_bottle_contains() -> None:
         with pytest.raises(EncodeError):
             write_binary(bottle)
     with pytest.raises(EncodeError, match="YARP 3 has no Vocab64"):
-        from robocomp_dsl.runtime.codec.bottle.values import Vocab64  # noqa: PLC0415
-
         write_binary([Vocab64(1)])

@@ -73,6 +73,8 @@ class YarpTransport:
         self._registration = Registration(self._names, self._resolve)
         self._lock = threading.Lock()
         self._clients: list[YarpServiceClient] = []
+        self.outputs: dict[str, OutputLinks] = {}
+        """The outgoing connections of published ports, by port."""
 
     def serve(self, port: IncomingPort) -> YarpServer:
         """See `Transport`."""
@@ -145,7 +147,7 @@ class YarpTransport:
         sender = f"/{at.component.strip('/')}/{at.port}:o"
         if text := self._context.addresses.get(at.port):
             sender = parse_address(text, at.name).name
-        links = OutputLinks(at, sender, self._resolve)
+        links = self.outputs[at.port] = OutputLinks(at, sender, self._resolve)
         port = self._open(at, ":o", None, links)
 
         def close() -> None:
