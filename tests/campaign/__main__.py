@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from tests.campaign import components, faults
+from tests.campaign.mutated_bytes import mutated_bytes
 from tests.campaign.running_deployment import RunningDeployment
 
 KILLS_PER_SECOND = 0.5
@@ -86,6 +87,7 @@ class Campaign:
         self.figures["calls"] = components.count_calls(self.folder)
         print("-- calls", self.figures["calls"])
         self.section("stopped subscriber", lambda: faults.slow_and_stopped_subscriber(self.folder))
+        self.section("mutated bytes", mutated_bytes)
         self.section("full disk", lambda: faults.full_disk(self.folder))
         for action in ("hang", *faults.ACTIONS):
             for hook in faults.HOOKS:

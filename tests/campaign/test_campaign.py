@@ -9,6 +9,7 @@ import pytest
 
 from tests.campaign.__main__ import Campaign
 from tests.campaign.components import count_calls
+from tests.campaign.mutated_bytes import mutated_bytes
 
 
 @pytest.fixture
@@ -40,3 +41,12 @@ def test_section_reports_a_fault_that_cannot_be_injected(journals: Path) -> None
     campaign.section("broken", lambda: 1 / 0)
     assert campaign.failures == ["broken"]
     assert "ZeroDivisionError" in campaign.figures["broken"]["error"]
+
+
+def test_mutated_bytes_reaches_every_decoder() -> None:
+    figures = mutated_bytes(20_000)
+    sent = [value for key, value in figures.items() if key.endswith(": bytes")]
+    accepted = [value for key, value in figures.items() if key.endswith(": accepted")]
+    assert len(sent) == 2
+    assert all(value >= 20_000 for value in sent)
+    assert all(0 < value < 100 for value in accepted)
