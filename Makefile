@@ -57,6 +57,7 @@ test-editors: test-tools
 # Programs of other projects call components, and are called by them: ZeroC Ice, ROS 2, DDS.
 test-peers: $(READY)
 	tests/middleware/install-peers.sh $(CURDIR)/$(BIN)/python
+	tests/middleware/yarp/install-peers.sh build/yarp-venv
 	$(BIN)/python -m pytest -q -n $(WORKERS) -m peers tests/middleware --ignore tests/middleware/ros2
 	$(BIN)/python -m pytest -q -n $(WORKERS) tests/middleware/conformance --middleware ice
 	tests/middleware/ros2/install-peers.sh $(PYTHON) build/peers-venv

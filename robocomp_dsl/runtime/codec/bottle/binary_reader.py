@@ -1,0 +1,117 @@
+"""Reads a Bottle in binary form. In: bytes, or a stream. Out: a Bottle, or `MalformedMessage`.
+
+Memory is bounded by the bytes that have arrived: no count of a message is trusted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from robocomp_dsl.runtime.codec.bottle.profile import BLOB, DICT, LIST, STRING, Profile, Scalar
+from robocomp_dsl.runtime.codec.bottle.values import MAX_DEPTH, Bottle, Dict
+from robocomp_dsl.runtime.errors import MalformedMessage
+
+
+def read_binary(data: bytes, profile: Profile) -> Bottle:
+    """The Bottle that `data` is. Raises `MalformedMessage`."""
+    at = 0
+
+    def take(size: int) -> bytes:
+        nonlocal at
+        if size > len(data) - at:
+            raise MalformedMessage(f"needs {size} bytes, {len(data) - at} are left", "", at)
+        at += size
+        return data[at - size : at]
+
+    reader = _Reader(take, profile)
+    bottle = reader.bottle()
+    if at != len(data):
+        raise MalformedMessage(f"{len(data) - at} bytes more than the Bottle has", "", at)
+    return bottle
+
+
+def read_stream(take: Callable[[int], bytes], profile: Profile) -> tuple[Bottle, int]:
+    """A Bottle from a stream, and its size in bytes.
+
+    `take` returns the next bytes; it raises what it likes if they do not arrive, or are too many.
+    """
+    reader = _Reader(take, profile)
+    return reader.bottle(), reader.offset
+
+
+class _Reader:
+    def __init__(self, take: Callable[[int], bytes], profile: Profile) -> None:
+        self._source = take
+        self._profile = profile
+        self.offset = 0
+
+    def _take(self, size: int) -> bytes:
+        data = self._source(size)
+        self.offset += size
+        return data
+
+    def _int(self) -> int:
+        return int.from_bytes(self._take(4), "little", signed=True)
+
+    def _count(self) -> int:
+        count = self._int()
+        if count < 0:
+            raise MalformedMessage(f"{count} is no count", "", self.offset - 4)
+        return count
+
+    def bottle(self) -> Bottle:
+        """The whole message."""
+        tag = self._int()
+        if not tag & LIST or tag == DICT:
+            raise MalformedMessage(f"starts with the tag {tag}, which is no list", "", 0)
+        return self._list(tag, 1)
+
+    def _list(self, tag: int, depth: int) -> Bottle:
+        """The body of a list."""
+        if depth > MAX_DEPTH:
+            what = f"lists are nested more than {MAX_DEPTH} deep"
+            raise MalformedMessage(what, "", self.offset)
+        count = self._count()
+        inner = tag - LIST
+        if not inner:
+            return [self._item(self._int(), depth) for _ in range(count)]
+        scalar = self._profile.by_tag.get(inner)
+        if scalar is not None and scalar.dtype is not None:
+            data = self._take(count * scalar.dtype.itemsize)
+            return np.frombuffer(data, scalar.dtype)
+        if scalar is None and inner not in {STRING, BLOB}:
+            raise self._unknown(tag)
+        return [self._value(inner, scalar) for _ in range(count)]
+
+    def _item(self, tag: int, depth: int) -> Any:
+        scalar = self._profile.by_tag.get(tag)
+        if scalar is not None or tag in {STRING, BLOB}:
+            return self._value(tag, scalar)
+        if tag == DICT:
+            inner = self._int()
+            if not inner & LIST or inner == DICT:
+                raise self._unknown(inner)
+            items = self._list(inner, depth + 1)
+            if isinstance(items, np.ndarray):
+                kind = self._profile.by_tag[inner - LIST].type
+                return Dict(kind(item) for item in items.tolist())
+            return Dict(items)
+        if not tag & LIST:
+            raise self._unknown(tag)
+        return self._list(tag, depth + 1)
+
+    def _value(self, tag: int, scalar: Scalar | None) -> Any:
+        if scalar is not None:
+            (number,) = scalar.form.unpack(self._take(scalar.form.size))
+            return number if scalar.type in {int, float} else scalar.type(number)
+        data = self._take(self._count())
+        # Older peers send other encodings; `surrogateescape` keeps their bytes.
+        return data.decode(errors="surrogateescape") if tag == STRING else bytes(data)
+
+    def _unknown(self, tag: int) -> MalformedMessage:
+        version = self._profile.version
+        hint = "" if version > 3 or tag not in {18, 20, 274, 276} else "; is the peer YARP 4?"
+        return MalformedMessage(f"YARP {version} has no tag {tag}{hint}", "", self.offset - 4)

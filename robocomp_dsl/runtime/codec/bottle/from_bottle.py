@@ -1,0 +1,202 @@
+"""Converts items of a Bottle to values of IDSL. In: a type. Out: a function.
+
+It raises `MalformedMessage` with the path of the item. Numbers may have another width than IDSL
+states, because text carriers have none, but must fit.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from robocomp_dsl.runtime.codec.bottle.text_writer import write_value
+from robocomp_dsl.runtime.codec.bottle.to_bottle import join_path
+from robocomp_dsl.runtime.codec.bottle.values import FALSE, TRUE, Bottle, Vocab, Vocab64, vocab
+from robocomp_dsl.runtime.data.convert import as_array, as_scalar
+from robocomp_dsl.runtime.data.errors import EncodeError
+from robocomp_dsl.runtime.data.per_class_cache import once
+from robocomp_dsl.runtime.data.schema import (
+    BOOL,
+    BYTE,
+    DOUBLE,
+    FLOAT,
+    STRING,
+    Array,
+    Dictionary,
+    Enum,
+    Fields,
+    Primitive,
+    Sequence,
+    Type,
+)
+from robocomp_dsl.runtime.data.struct import Struct
+from robocomp_dsl.runtime.errors import MalformedMessage
+
+FromItem: TypeAlias = Callable[[Any], Any]
+_BOOLS = {TRUE: True, FALSE: False, vocab("ok"): True, vocab("fail"): False, 1: True}
+_FLOAT = struct.Struct("<f")
+_SHOWN = 40
+
+
+def items_to_fields(fields: Fields) -> Callable[[Bottle], list[Any]]:
+    """A function from items to the values of fields."""
+    converters = [(name, value_converter(type_)) for name, type_ in fields]
+    names = " ".join(name or "result" for name, _ in fields) or "nothing"
+
+    def convert(items: Bottle) -> list[Any]:
+        if len(items) != len(converters):
+            raise MalformedMessage(f"has {len(items)} values, but should have: {names}")
+        values = []
+        plain = as_items(items)
+        for (name, from_item), item in zip(converters, plain, strict=True):
+            try:
+                values.append(from_item(item))
+            except MalformedMessage as error:
+                raise _inside(name, error) from None
+        return values
+
+    return convert
+
+
+def as_items(bottle: Bottle) -> list[Any]:
+    """The items as Python values."""
+    return bottle.tolist() if isinstance(bottle, np.ndarray) else bottle
+
+
+def value_converter(type_: Type) -> FromItem:
+    """A function from an item to a value of `type_`."""
+    convert: FromItem
+    match type_:
+        case Primitive():
+            convert = _scalar(type_)
+        case Array():
+            convert = _bools if type_.element is BOOL else _array(type_.element)
+        case Sequence():
+            convert = _elements(value_converter(type_.element))
+        case Dictionary():
+            convert = _dictionary(type_)
+        case _ if issubclass(type_, Enum):
+            convert = _member(type_)
+        case _ if issubclass(type_, Struct):
+            convert = _struct(type_)
+        case _:
+            convert = _struct_array(type_)
+    return convert
+
+
+def _struct_array(type_: Any) -> FromItem:
+    elements = _elements(value_converter(type_._element_))
+    return lambda item: type_(elements(item))
+
+
+def _wrong(item: Any, what: str) -> MalformedMessage:
+    text = write_value(item)
+    text = text if len(text) <= _SHOWN else text[: _SHOWN - 1] + "…"
+    return MalformedMessage(f"`{text}` is no {what}")
+
+
+def _inside(path: str, error: MalformedMessage) -> MalformedMessage:
+    return MalformedMessage(error.reason, join_path(path, error.path), error.offset)
+
+
+def _scalar(type_: Primitive) -> FromItem:
+    if type_ is STRING:
+        return _text
+    if type_ is BOOL:
+        return _flag
+    is_float = type_ in {FLOAT, DOUBLE}
+
+    def number(item: Any) -> Any:
+        if not isinstance(item, int | float) or isinstance(item, Vocab | Vocab64):
+            raise _wrong(item, type_.name)
+        if is_float:
+            item = float(item)
+        elif isinstance(item, float) and item.is_integer():
+            item = int(item)
+        try:
+            value = as_scalar(type_, item)
+        except EncodeError as error:
+            raise MalformedMessage(error.reason) from None
+        if type_ is FLOAT:
+            return _FLOAT.unpack(_FLOAT.pack(value))[0]
+        return value if is_float else int(value)
+
+    return number
+
+
+def _text(item: Any) -> str:
+    if not isinstance(item, str):
+        raise _wrong(item, 'string; in text, write it in quotes ("…")')
+    try:
+        item.encode()
+    except UnicodeEncodeError:
+        raise MalformedMessage("the text is not UTF-8") from None
+    return item
+
+
+def _flag(item: Any) -> bool:
+    value = _BOOLS.get(item) if isinstance(item, int) else None
+    if value is None:
+        raise _wrong(item, "bool (true, false)")
+    return value
+
+
+def _member(type_: type[Enum]) -> FromItem:
+    def member(item: Any) -> Enum:
+        if not isinstance(item, int) or item not in type_._value2member_map_:
+            raise _wrong(item, f"value of {type_.__name__}")
+        return type_(item)
+
+    return member
+
+
+def _list_of(item: Any) -> Any:
+    if not isinstance(item, list | np.ndarray):
+        raise _wrong(item, "list")
+    return item
+
+
+def _array(element: Primitive) -> FromItem:
+    dtype = element.dtype
+
+    def array(item: Any) -> Any:
+        if element is BYTE and isinstance(item, bytes):
+            return np.frombuffer(item, np.uint8)
+        try:
+            return as_array(_list_of(item), dtype)
+        except EncodeError as error:
+            raise MalformedMessage(error.reason, error.path) from None
+
+    return array
+
+
+def _bools(item: Any) -> Any:
+    return np.array([_flag(value) for value in as_items(_list_of(item))], np.bool_)
+
+
+def _elements(from_item: FromItem) -> FromItem:
+    def convert(item: Any) -> list[Any]:
+        values = []
+        for index, inner in enumerate(as_items(_list_of(item))):
+            try:
+                values.append(from_item(inner))
+            except MalformedMessage as error:
+                raise _inside(f"[{index}]", error) from None
+        return values
+
+    return convert
+
+
+def _dictionary(type_: Dictionary) -> FromItem:
+    pair = items_to_fields((("key", type_.key), ("value", type_.value)))
+    pairs = _elements(lambda item: pair(_list_of(item)))
+    return lambda item: dict(pairs(item))
+
+
+@once
+def _struct(type_: type[Struct]) -> FromItem:
+    convert = items_to_fields(type_._fields_)
+    return lambda item: type_(*convert(_list_of(item)))

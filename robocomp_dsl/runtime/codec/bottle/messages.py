@@ -1,0 +1,163 @@
+"""Messages of operations as Bottles.
+
+A request or publication is the name of the operation, then the arguments; a reply is `[ok]`, then
+the result and outputs; a failure is `[fail] "message" kind`, for a declared exception with its name
+and fields behind. A topic with one operation that has one argument, a sequence of numbers or a
+struct, needs no name: its message is the value itself, such as a Vector of YARP.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from robocomp_dsl.runtime.codec.bottle.from_bottle import as_items, items_to_fields
+from robocomp_dsl.runtime.codec.bottle.to_bottle import fields_to_items, item_converter
+from robocomp_dsl.runtime.codec.bottle.values import Bottle, is_word, vocab
+from robocomp_dsl.runtime.component.interface import Interface, Operation
+from robocomp_dsl.runtime.component.user_errors import describe_error, message_of
+from robocomp_dsl.runtime.data.schema import BOOL, BYTE, Array
+from robocomp_dsl.runtime.data.struct import Struct
+from robocomp_dsl.runtime.errors import (
+    CallRejected,
+    DeclaredError,
+    EncodeError,
+    InterfaceMismatch,
+    MalformedMessage,
+    RejectedByReceiver,
+    RemoteError,
+)
+
+OK, FAIL = vocab("ok"), vocab("fail")
+_KINDS: dict[type[BaseException], str] = {
+    InterfaceMismatch: "mismatch",
+    MalformedMessage: "malformed",
+    RejectedByReceiver: "rejected",
+}
+_DECLARED = "declared"
+
+
+def is_plain_topic(interface: Interface) -> bool:
+    """Whether the messages of a topic are its only argument itself."""
+    if len(interface.operations) != 1 or len(interface.operations[0].inputs) != 1:
+        return False
+    (_, type_), *_ = interface.operations[0].inputs
+    if isinstance(type_, Array):
+        return type_.element not in {BOOL, BYTE}
+    return isinstance(type_, type) and issubclass(type_, Struct)
+
+
+def request_encoder(operation: Operation) -> Callable[[tuple[Any, ...]], list[Any]]:
+    """A function from arguments to a request, or to a publication."""
+    convert, name = fields_to_items(operation.inputs), operation.name
+    return lambda arguments: [name, *convert(arguments)]
+
+
+def plain_encoder(operation: Operation) -> Callable[[tuple[Any, ...]], Bottle]:
+    """A function from the only argument to a publication of a plain topic."""
+    convert = fields_to_items(operation.inputs)
+    return lambda arguments: convert(arguments)[0]
+
+
+def request_decoder(operation: Operation) -> Callable[[Bottle], tuple[Any, ...]]:
+    """A function from the items behind the name to arguments."""
+    convert = items_to_fields(operation.inputs)
+    return lambda items: tuple(convert(items))
+
+
+def plain_decoder(operation: Operation) -> Callable[[Bottle], tuple[Any, ...]]:
+    """A function from a publication of a plain topic to its only argument."""
+    convert = items_to_fields(operation.inputs)
+    return lambda items: tuple(convert([items]))
+
+
+def reply_encoder(operation: Operation) -> Callable[[Any], list[Any]]:
+    """A function from the result of a handler to a reply."""
+    outputs = operation.outputs
+    convert = fields_to_items(outputs)
+
+    def encode(result: Any) -> list[Any]:
+        if len(outputs) > 1:
+            if not isinstance(result, tuple):
+                raise EncodeError(f"returns a tuple of {len(outputs)}, not {result!r:.40}")
+            return [OK, *convert(result)]
+        if not outputs and result is not None:
+            raise EncodeError(f"returns nothing, not {result!r:.40}")
+        return [OK, *convert((result,) if outputs else ())]
+
+    return encode
+
+
+def reply_decoder(operation: Operation, *, external: bool) -> Callable[[Bottle], Any]:
+    """A function from a reply that is no failure to the result of a proxy.
+
+    An `external` server may omit `[ok]`; if the result is a bool, a lone `[ok]` is the result.
+    """
+    outputs = operation.outputs
+    convert = items_to_fields(outputs)
+    is_flag = len(outputs) == 1 and outputs[0][1] is BOOL
+
+    def decode(reply: Bottle) -> Any:
+        items = as_items(reply) if len(outputs) != 1 else reply
+        has_ok = len(items) > 0 and is_word(items[0], "ok")
+        if not has_ok and not external:
+            raise MalformedMessage("starts with neither [ok] nor [fail]")
+        if has_ok and not (external and is_flag and len(items) == 1):
+            items = items[1:]
+        values = convert(items)
+        if len(values) > 1:
+            return tuple(values)
+        return values[0] if values else None
+
+    return decode
+
+
+def is_failure(reply: Bottle, operation: Operation, *, external: bool) -> bool:
+    """Whether a reply reports a failure; of an `external` server, a lone `[fail]` may be false."""
+    if not len(reply) or not is_word(reply[0], "fail"):
+        return False
+    outputs = operation.outputs
+    is_flag = len(outputs) == 1 and outputs[0][1] is BOOL
+    return not (external and is_flag and len(reply) == 1)
+
+
+def encode_failure(operation: Operation, error: BaseException) -> list[Any]:
+    """The reply for an exception that was raised in or before the handler. Never raises."""
+    if isinstance(error, DeclaredError) and isinstance(error, operation.throws):
+        name = type(error).__name__
+        try:
+            fields = item_converter(type(error))(error)
+        except EncodeError as wrong:
+            error = wrong
+        else:
+            return [FAIL, f"{name}: {error}", _DECLARED, name, fields]
+    kind = _KINDS.get(type(error))
+    if kind:
+        return [FAIL, _text(message_of(error)), kind]
+    return [FAIL, _text(describe_error(error)), "remote"]
+
+
+def _text(text: str) -> str:
+    return text.encode(errors="replace").decode()
+
+
+def decode_failure(operation: Operation, what: str, reply: Bottle) -> Exception:
+    """The exception of a reply that reports a failure. Never raises."""
+    items = as_items(reply)
+    text = str(items[1]) if len(items) > 1 else "it reported a failure without a reason"
+    kind = items[2] if len(items) > 2 else ""
+    if kind == _DECLARED and len(items) == 5:
+        for throw in operation.throws:
+            if throw.__name__ == items[3]:
+                try:
+                    values = items_to_fields(throw._fields_)(items[4])
+                except (MalformedMessage, TypeError) as error:
+                    return MalformedMessage(f"the exception of {what}: {error}")
+                return throw(*values)
+    if kind == "malformed":
+        return MalformedMessage(f"{what} could not decode the request: {text}")
+    if kind == "mismatch":
+        return InterfaceMismatch(text)
+    if kind == "rejected":
+        return CallRejected(text)
+    return RemoteError(f"{what} failed: {text}")

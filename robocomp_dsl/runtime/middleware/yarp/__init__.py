@@ -1,0 +1,1 @@
+"""YARP without YARP: ports, carriers, name server, and the IDSL interfaces on them."""

@@ -1,0 +1,20 @@
+"""yarp: components, and programs of YARP 3 and 4. No part of YARP is needed."""
+
+from robocomp_dsl.runtime.middleware.capabilities import Capabilities, MiddlewareDescription
+
+MAX_MESSAGE_BYTES = 1 << 30
+"""Larger messages are refused by the sender, and by the receiver."""
+
+MIDDLEWARE = MiddlewareDescription(
+    name="yarp",
+    summary="YARP 3 and 4: programs written with YARP; needs no installation of YARP",
+    capabilities=Capabilities(
+        between_hosts=True,
+        external_peers=True,
+        fixed_address=True,
+        attaches_subscribers=True,
+        qos=frozenset({"reliable"}),
+        max_message_bytes=MAX_MESSAGE_BYTES,
+    ),
+    opener="robocomp_dsl.runtime.middleware.yarp.transport:open_transport",
+)

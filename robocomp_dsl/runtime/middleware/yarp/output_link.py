@@ -1,0 +1,211 @@
+"""Sends the messages of one port to one other port, and never waits for it for long.
+
+In: messages. Out: a connection that is opened, and opened again, by a thread of the link. What the
+system's buffers take at once is sent by the publishing thread.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+
+from robocomp_dsl.runtime.component.statistics import OperationCounts
+from robocomp_dsl.runtime.component.throttle import Throttle
+from robocomp_dsl.runtime.middleware.yarp import outgoing
+from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress
+from robocomp_dsl.runtime.middleware.yarp.outgoing import Resolve
+from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost, Stream
+
+HOLD_S = 0.05
+"""How long a reader may hold a publication of a reliable port."""
+DEPTH = 1000
+"""Messages on their way to one reader, if the port states no depth."""
+RETRY_S = 0.5
+CONNECT_S = 2.0
+CLOSE_S = 0.5
+"""After the port was closed, the last messages have this time."""
+log = logging.getLogger("robocomp")
+
+
+class OutputLink:
+    """One connected reader."""
+
+    def __init__(
+        self,
+        address: PortAddress,
+        sender: str,
+        resolve: Resolve,
+        depth: int | None,
+        *,
+        reliable: bool,
+        on_end: Callable[[OutputLink], None] | None = None,
+    ) -> None:
+        """Without `on_end` a lost connection is opened again; else it is called."""
+        self.address = address
+        self._sender = sender
+        self._resolve = resolve
+        self._depth = depth or DEPTH
+        self._reliable = reliable
+        self._on_end = on_end
+        self._throttle = Throttle()
+        self._changed = threading.Condition()
+        self._stream: Stream | None = None
+        self._messages: deque[bytes] = deque()
+        self._is_sending = False
+        self._stalled = False
+        self._closed = False
+        self._thread = threading.Thread(target=self._run, name=f"yarp {sender} output", daemon=True)
+
+    def start(self, stream: Stream | None = None) -> None:
+        """Send from now on, over `stream` if it is open already."""
+        self._stream = stream
+        self._thread.start()
+
+    def send(self, data: bytes, counts: OperationCounts) -> None:
+        """Send one message; if there is no room, one is dropped and counted."""
+        with self._changed:
+            if self._closed:
+                return
+            if not self._messages and not self._is_sending and self.address.carrier == "fast_tcp":
+                rest = self._send_now(data)
+                if not rest:
+                    return
+                self._messages.append(rest)
+                self._is_sending = len(rest) < len(data)  # a rest is never dropped
+            elif self._has_room(counts):
+                self._messages.append(data)
+            self._changed.notify_all()
+
+    def _send_now(self, data: bytes) -> bytes:
+        """Send what the buffers take; returns the rest."""
+        stream = self._stream
+        if stream is None or stream.is_closed():
+            return data
+        try:
+            return stream.send_now(data)
+        except OSError:
+            return data  # the thread of the link finds out why
+
+    def _has_room(self, counts: OperationCounts) -> bool:
+        if self._is_short():
+            self._stalled = False
+            return True
+        if not self._reliable:
+            del self._messages[int(self._is_sending)]
+            counts.drops += 1
+            return True
+        if not self._stalled:
+            self._changed.wait_for(self._may_append, HOLD_S)
+            if not self._closed and self._is_short():
+                return True
+            self._stalled = True
+            if self._throttle.allows("held"):
+                log.warning(
+                    "%s receives nothing and held a publication for %g ms; until it does, it"
+                    " loses messages",
+                    *(self.address.name, HOLD_S * 1000),
+                )
+        counts.drops += 1
+        return False
+
+    def _may_append(self) -> bool:
+        return self._closed or self._is_short()
+
+    def _is_short(self) -> bool:
+        return len(self._messages) - self._is_sending < self._depth
+
+    def _run(self) -> None:
+        while True:
+            if self._stream is None and not self._connect():
+                return
+            try:
+                if self._send_messages():
+                    return
+            except ConnectionLost as error:
+                if self._lost(str(error)):
+                    return
+
+    def _connect(self) -> bool:
+        """Open the connection, and try again until it is; False if the port was closed."""
+        while not self._closed:
+            try:
+                address = self._resolve(self.address)
+                stream = outgoing.open_connection(address, self._sender, CONNECT_S)
+            except ConnectionLost as error:
+                if self._lost(str(error)):
+                    return False
+                with self._changed:
+                    self._changed.wait_for(lambda: self._closed, RETRY_S)
+            else:
+                with self._changed:
+                    self._stream = stream
+                return True
+        return False
+
+    def _lost(self, reason: str) -> bool:
+        """The connection is lost, or was refused; returns whether the link ends."""
+        with self._changed:
+            stream, self._stream = self._stream, None
+            if self._is_sending and self._messages:
+                self._messages.popleft()  # a rest, which a new connection cannot take
+            self._is_sending = False
+        if stream:
+            stream.close()
+        if self._closed or self._on_end:
+            if self._on_end:
+                self._on_end(self)
+            return True
+        if self._throttle.allows("lost"):
+            log.warning("%s: no connection to %s: %s", self._sender, self.address, reason)
+        return False
+
+    def _send_messages(self) -> bool:
+        """Send what arrives; returns whether the link was closed. Raises `ConnectionLost`."""
+        stream = self._stream
+        assert stream is not None  # noqa: S101 - it has just been connected
+        carrier = self.address.carrier
+        while True:
+            with self._changed:
+                if not self._messages:
+                    self._changed.wait_for(lambda: self._messages or self._closed, RETRY_S)
+                if not self._messages:
+                    if self._closed:
+                        return self._finish(stream)
+                    if stream.is_closed():
+                        raise ConnectionLost("the reader closed the connection")
+                    continue
+                self._is_sending = True
+                data = self._messages[0]
+            stream.send(data)
+            outgoing.read_ack(stream, carrier)
+            with self._changed:
+                if self._messages:
+                    self._messages.popleft()
+                self._is_sending = False
+                self._changed.notify_all()
+
+    def _finish(self, stream: Stream) -> bool:
+        stream.deadline = time.monotonic() + CLOSE_S
+        with contextlib.suppress(ConnectionLost):
+            stream.send(outgoing.end_bytes(self.address.carrier))
+        stream.close()
+        return True
+
+    def close(self) -> None:
+        """Send the last messages, and end the connection."""
+        with self._changed:
+            self._closed = True
+            stream = self._stream
+            if stream is None:
+                self._messages.clear()
+            self._changed.notify_all()
+        if threading.current_thread() is self._thread or not self._thread.is_alive():
+            return
+        self._thread.join(CLOSE_S)
+        if stream is not None and self._thread.is_alive():
+            stream.close()  # the reader receives nothing
+            self._thread.join(CLOSE_S)
