@@ -13,7 +13,7 @@ MIDDLEWARE = MiddlewareDescription(
         external_peers=True,
         fixed_address=True,
         attaches_subscribers=True,
-        qos=frozenset({"reliable"}),
+        qos=frozenset({"reliable", "keep_all", "latched"}),
         max_message_bytes=MAX_MESSAGE_BYTES,
     ),
     opener="robocomp_dsl.runtime.middleware.yarp.transport:open_transport",

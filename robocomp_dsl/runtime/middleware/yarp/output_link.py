@@ -15,13 +15,12 @@ from collections.abc import Callable
 
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.throttle import Throttle
+from robocomp_dsl.runtime.connection import bounded_queue
 from robocomp_dsl.runtime.middleware.yarp import outgoing
 from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress
 from robocomp_dsl.runtime.middleware.yarp.outgoing import Resolve
 from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost, Stream
 
-HOLD_S = 0.05
-"""How long a reader may hold a publication of a reliable port."""
 DEPTH = 1000
 """Messages on their way to one reader, if the port states no depth."""
 RETRY_S = 0.5
@@ -99,7 +98,7 @@ class OutputLink:
             counts.drops += 1
             return True
         if not self._stalled:
-            self._changed.wait_for(self._may_append, HOLD_S)
+            self._changed.wait_for(self._may_append, bounded_queue.HOLD_S)
             if not self._closed and self._is_short():
                 return True
             self._stalled = True
@@ -107,7 +106,7 @@ class OutputLink:
                 log.warning(
                     "%s receives nothing and held a publication for %g ms; until it does, it"
                     " loses messages",
-                    *(self.address.name, HOLD_S * 1000),
+                    *(self.address.name, bounded_queue.HOLD_S * 1000),
                 )
         counts.drops += 1
         return False

@@ -46,7 +46,7 @@ class OutputLinks:
 
     def _link(self, address: PortAddress, *, ends: bool = False) -> OutputLink:
         qos = self._at.qos
-        reliable, on_end = bool(qos.reliable), self._remove if ends else None
+        reliable, on_end = qos.holds_publisher, self._remove if ends else None
         return OutputLink(
             address, self._sender, self._resolve, qos.depth, reliable=reliable, on_end=on_end
         )

@@ -13,8 +13,8 @@ from robocomp_dsl.runtime.codec.bottle import messages
 from robocomp_dsl.runtime.codec.bottle.values import Bottle, Vocab, vocab
 from robocomp_dsl.runtime.component.interface import Pattern
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
+from robocomp_dsl.runtime.connection.message_queue import MessageQueue
 from robocomp_dsl.runtime.errors import EncodeError, InterfaceMismatch, MalformedMessage
-from robocomp_dsl.runtime.middleware.yarp.reader_queue import ReaderQueue
 
 Handler: TypeAlias = "Callable[[Bottle, int], Bottle | None]"
 """From the items behind the name and the size of the message to the reply."""
@@ -30,7 +30,7 @@ class OperationReceiver:
         needs_queue = not is_service or any(
             operation.pattern is Pattern.COMMAND for operation in port.interface.operations
         )
-        self.queue = ReaderQueue(port) if needs_queue else None
+        self.queue = MessageQueue(port) if needs_queue else None
         self._plain = not is_service and messages.is_plain_topic(port.interface)
         self._handlers = {name: self._handler(served) for name, served in port.operations.items()}
         only = list(self._handlers.values())
@@ -112,7 +112,7 @@ def _answered(served: IncomingOperation) -> Handler:
     return answer
 
 
-def _queued(served: IncomingOperation, queue: ReaderQueue, *, plain: bool) -> Handler:
+def _queued(served: IncomingOperation, queue: MessageQueue, *, plain: bool) -> Handler:
     operation, counts, handle, put = served.operation, served.counts, served.handle, queue.put
     decode = messages.plain_decoder(operation) if plain else messages.request_decoder(operation)
 
