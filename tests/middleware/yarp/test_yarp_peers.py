@@ -75,7 +75,7 @@ def test_yarp_rpc_calls_operations(component: Components, names: NameClient, too
     assert "Response: [ok] true\n" in output
     assert 'declared NoPath ("no way to moon")' in output
     assert "malformed" in output
-    assert '"*** Available commands:" "add a b"' in output
+    assert "*** Available commands:\n  add a b\n" in output  # as those of yarpidl_thrift
 
 
 def test_yarp_read_connects_to_publisher(
@@ -88,8 +88,7 @@ def test_yarp_read_connects_to_publisher(
     channel_has_reader = own.outputs("Events")
     wait_until(lambda: "/reader" in channel_has_reader())
     publish("bump", 3)
-    assert reader.stdout is not None
-    assert reader.stdout.readline() == "event bump 3\n"
+    assert tools.line_of(reader) == "event bump 3\n"
 
 
 @pytest.mark.parametrize("carrier", ["tcp", "fast_tcp", "text", "text_ack"])
@@ -104,11 +103,10 @@ def test_yarp_connect_and_disconnect(
     connected = tools.run("connect", "/own/Scan:o", "/reader", carrier)
     assert connected.returncode == 0, connected
     publish(np.array([1.5, 2.5]))
-    assert reader.stdout is not None
-    assert reader.stdout.readline() == "1.5 2.5\n"
-    assert tools.run("exists", "/own/Scan:o", "/reader").returncode == 0
+    assert tools.line_of(reader) == "1.5 2.5\n"
+    assert tools.run("exists", "/own/Scan:o", "/reader", carrier).returncode == 0
     assert tools.run("disconnect", "/own/Scan:o", "/reader").returncode == 0
-    assert tools.run("exists", "/own/Scan:o", "/reader").returncode != 0
+    assert tools.run("exists", "/own/Scan:o", "/reader", carrier).returncode != 0
 
 
 @pytest.mark.parametrize("prefix", ["", "text://", "fast_tcp://"])
@@ -120,8 +118,14 @@ def test_yarp_write_sends_to_subscriber(
     own.subscribe(POSE, received.append)
     wait_until(lambda: names.query("/own/PosePub:i"))
     target = f"{prefix}/own/PosePub:i".replace(":///", "://") if prefix else "/own/PosePub:i"
-    tools.run("write", "/writer", target, text="1.5 2 map\n")
-    wait_until(lambda: received == [Pose(1.5, 2.0, "map")])
+
+    def written() -> bool:
+        """Over text, a writer that ends at once may reset its connection before it is read."""
+        tools.run("write", "/writer", target, text="1.5 2 map\n")
+        return bool(received)
+
+    wait_until(written)
+    assert received[0] == Pose(1.5, 2.0, "map")
 
 
 def test_component_reads_and_calls_yarp_ports(
@@ -140,13 +144,15 @@ def test_component_reads_and_calls_yarp_ports(
 
 
 PLAIN = """
+import time
 import yarp
 yarp.Network.init()
 writer, server = yarp.Port(), yarp.RpcServer()
 writer.open("/plain:o")
 server.open("/plain/rpc")
 vector = yarp.Vector(2)
-vector[0], vector[1] = 1.5, 2.5
+vector.set(0, 1.5)
+vector.set(1, 2.5)
 request, reply = yarp.Bottle(), yarp.Bottle()
 while True:
     writer.write(vector)
@@ -154,7 +160,7 @@ while True:
         reply.clear()
         reply.addInt32(request.get(1).asInt32() + request.get(2).asInt32())
         server.reply(reply)
-    yarp.Time.delay(0.01)
+    time.sleep(0.01)
 """
 
 

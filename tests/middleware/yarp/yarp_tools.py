@@ -68,9 +68,25 @@ class Tools:
         self._started.append(process)
         return process
 
+    @staticmethod
+    def line_of(process: subprocess.Popen[str]) -> str:
+        """The next line that is no log message of YARP."""
+        assert process.stdout is not None
+        while (line := process.stdout.readline()).startswith("["):
+            pass
+        return line
+
     def start_name_server(self) -> None:
         """Start YARP's name server at the address in `yarp.conf`."""
-        options = ("--read", "--portdb", ":memory:")
+        options = (
+            "--write",
+            "--ip",
+            LOOPBACK,
+            "--socket",
+            str(self.number),
+            "--portdb",
+            ":memory:",
+        )
         self._name_server = self.start(*options, "--subdb", ":memory:", program="yarpserver")
 
     def restart_name_server(self) -> None:
