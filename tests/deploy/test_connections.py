@@ -70,10 +70,14 @@ def test_qos_changes_the_ends_that_it_concerns(deployment: Deployment) -> None:
     assert "sink.News with a.News: depth=9" in output
     assert "a.News with sink.News: priority=high" in output
     assert "write it into the deployment" in output
-    listed = json.loads(run(deployment, "connections", "--json"))
-    qos = {(row["component"], row["peer"]): row["qos"] for row in listed if row["port"] == "News"}
-    assert qos["sink", "a.News"] == "depth=9"
-    assert qos["a", "sink.News"] == "priority=high"
+
+    def qos() -> dict[tuple[str, str], str]:
+        listed = json.loads(run(deployment, "connections", "--json"))
+        return {(row["component"], row["peer"]): row["qos"] for row in listed}
+
+    wait_until(lambda: ("a", "sink.News") in qos(), "the publisher knows its subscriber")
+    assert qos()["sink", "a.News"] == "depth=9"
+    assert qos()["a", "sink.News"] == "priority=high"
     output = run(deployment, "qos", "a.News", "sink.News", "priority=off", "depth=off")
     assert "the defaults" in output
 

@@ -84,6 +84,12 @@ TAGS += (
     "target",
 )
 
+ROS_SUFFIXES = (".msg", ".srv", ".action")
+ROS_WORDS = (
+    *("int32", "uint8", "float64", "bool", "string", "string<=3", "wstring", "byte", "char"),
+    *("Header", "std_msgs/Header", "time", "duration", "[3]", "[<=4]", "[]", "X=1", "---", "#"),
+)
+
 
 @cache
 def seeds(suffix: str) -> tuple[str, ...]:
@@ -100,6 +106,8 @@ def words(suffix: str) -> tuple[str, ...]:
     """Keywords and punctuation of a language, and unknown characters."""
     if suffix in (".xml", ".scxml"):
         return (*TAGS, *SIGNS)
+    if suffix in ROS_SUFFIXES:
+        return (*ROS_WORDS, *SIGNS)
     return (*sorted(load(suffix[1:]).keywords), *SIGNS, "int", "Near", "a", "x1")
 
 

@@ -190,7 +190,7 @@ def test_component_follows_clock_source_component() -> None:
             wait_until(lambda: source.worker.clock.paused)
             assert source.worker.times == [n / 100 for n in range(201)]
             wait_until(lambda: counter.worker.clock.now() == 2.0)
-            assert len(counter.worker.times) > 0
+            wait_until(lambda: len(counter.worker.times) > 0)
             assert counter.worker.times == sorted(counter.worker.times)
             source.worker.last = 3.0
             source.worker.clock.resume()

@@ -46,12 +46,12 @@ class SteppedClockSource(Component):
     def compute(self) -> None:
         group = self._lifecycle._callback_group
         while not self.left and not self.over:
-            paused = group.pause()
+            began = group.pause()
             self.idle.set()
             self.resumed.wait()
             self.resumed.clear()
-            if paused:
-                group.resume()
+            if began:
+                group.resume(began)
         if not self.over:
             self.left -= 1
             self.tick()

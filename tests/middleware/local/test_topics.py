@@ -274,3 +274,25 @@ def test_publications_of_a_publisher_that_closes_at_once_arrive(side: Open) -> N
         publish.publisher.close()
     wait_until(lambda: len(received) == 40)
     assert sorted(received) == list(range(40))
+
+
+def test_keep_all_queues_in_order_and_holds_when_full(
+    side: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(subscriber_socket, "HOLD_S", 0.05)
+    slow, qos, publisher = Slow(), Qos(keep_all=True, depth=50), side("p")
+    record = side("s").subscribe({"taken": slow.taken}, FRAMES, qos)
+    publish = publisher.publisher(FRAMES, record, qos=qos)
+    for number in range(50):
+        publish("taken", number, PIXELS[: 200_000 * (number % 2)])
+    assert publisher.count("taken", FRAMES).drops == 0
+    for number in range(50, 500):
+        publish("taken", number, PIXELS)
+    drops = publisher.count("taken", FRAMES).drops
+    assert drops > 300
+    slow.free.set()
+    wait_until(lambda: len(slow.numbers) == 500 - drops)
+    assert slow.numbers[:50] == list(range(50))
+    assert slow.numbers == sorted(slow.numbers)
+    publish("taken", 500, PIXELS)
+    wait_until(lambda: slow.numbers[-1] == 500)

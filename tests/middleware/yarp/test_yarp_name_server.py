@@ -185,9 +185,9 @@ def test_parse_address_refuses(text: str, message: str) -> None:
 
 
 def test_table_limits_its_ports(name_server: NameServer, monkeypatch: Any) -> None:
-    from robocomp_dsl.runtime.middleware.yarp import name_table  # noqa: PLC0415
+    from robocomp_dsl.runtime.middleware.yarp import registrations  # noqa: PLC0415
 
-    monkeypatch.setattr(name_table, "MAX_PORTS", 3)
+    monkeypatch.setattr(registrations, "MAX_PORTS", 3)
     assert ask(name_server, "register /a tcp h 5")
     assert ask(name_server, "register /b tcp h 6") == []
     assert ask(name_server, "register /a tcp h 7")

@@ -10,7 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.runtime.codec.bottle.profile import BLOB, DICT, LIST, STRING, Profile, Scalar
+from robocomp_dsl.runtime.codec.bottle.profile import (
+    BLOB,
+    DICT,
+    LIST,
+    STRING,
+    BottleScalar,
+    Profile,
+)
 from robocomp_dsl.runtime.codec.bottle.values import MAX_DEPTH, Bottle, Dict
 from robocomp_dsl.runtime.errors import MalformedMessage
 
@@ -103,7 +110,7 @@ class _Reader:
             raise self._unknown(tag)
         return self._list(tag, depth + 1)
 
-    def _value(self, tag: int, scalar: Scalar | None) -> Any:
+    def _value(self, tag: int, scalar: BottleScalar | None) -> Any:
         if scalar is not None:
             (number,) = scalar.form.unpack(self._take(scalar.form.size))
             return number if scalar.type in {int, float} else scalar.type(number)

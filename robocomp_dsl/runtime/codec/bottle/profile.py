@@ -18,7 +18,7 @@ STRING, BLOB, LIST, DICT = 4, 12, 256, 768
 
 
 @dataclass(frozen=True, slots=True)
-class Scalar:
+class BottleScalar:
     """A type of fixed size: tag, format for `struct`, Python class, and the dtype of its lists."""
 
     tag: int
@@ -27,8 +27,10 @@ class Scalar:
     dtype: np.dtype[Any] | None
 
 
-def _scalar(tag: int, form: str, type_: type[Any], dtype: str = "") -> Scalar:
-    return Scalar(tag, struct.Struct(f"<{form}"), type_, np.dtype(f"<{dtype}") if dtype else None)
+def _scalar(tag: int, form: str, type_: type[Any], dtype: str = "") -> BottleScalar:
+    return BottleScalar(
+        tag, struct.Struct(f"<{form}"), type_, np.dtype(f"<{dtype}") if dtype else None
+    )
 
 
 class Profile:

@@ -19,6 +19,7 @@ from typing import TypeAlias
 
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.throttle import Throttle
+from robocomp_dsl.runtime.connection.bounded_queue import KEEP_ALL_DEPTH
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.flusher import Flusher
@@ -32,9 +33,12 @@ HOLD_S = 1.0
 DEPTH = 256
 """Length of the queue until the subscriber has told its own."""
 MAX_QUEUED_BYTES = 1 << 28
+MAX_QUEUED_SHARED = 200
+"""Each keeps a descriptor."""
 MAX_SHARED = 4
 """So many large messages may wait in the socket: the queue behind it can drop its oldest."""
 _POLL_MS = 5
+_PAUSE_S = 0.001
 _COUNT = Struct("i")
 _ZERO = bytes(_COUNT.size)
 _TOO_MANY_DESCRIPTORS = errno.ETOOMANYREFS
@@ -52,6 +56,7 @@ class SubscriberSocket:
         self._subscriber = subscriber.name
         self._flusher = flusher
         self._reliable = at.qos.holds_publisher
+        self._capacity = (at.qos.depth or KEEP_ALL_DEPTH) if at.qos.keep_all else 0
         self._path, port = parse_address(subscriber.address)
         self._hello = hello_packet(at, port, packets.PUBLICATION)
         self._lock = threading.Lock()
@@ -92,12 +97,27 @@ class SubscriberSocket:
                 return
             if not self._queue and self._try(self._send, packet, shared):
                 self._stalled = False
-            elif self._reliable:
-                self._hold(packet, shared, counts)
-            else:
-                self._queue.append((packet, shared, counts))
+            elif not self._reliable:
+                self._append(packet, shared, counts)
                 self._limit()
-                self._flusher.add(self)
+            elif self._has_room(shared):
+                self._stalled = False
+                self._append(packet, shared, counts)
+            else:
+                self._hold(packet, shared, counts)
+
+    def _append(self, packet: bytes, shared: SharedMessage | None, counts: OperationCounts) -> None:
+        self._queue.append((packet, shared, counts))
+        self._flusher.add(self)
+
+    def _has_room(self, shared: SharedMessage | None) -> bool:
+        """Whether the queue of a connection that keeps all messages takes another one."""
+        if len(self._queue) >= self._capacity:
+            return False
+        if shared is None:
+            return True
+        sizes = [each.size for _, each, _ in self._queue if each]
+        return len(sizes) < MAX_QUEUED_SHARED and sum(sizes) < MAX_QUEUED_BYTES
 
     def _send(self, packet: bytes, shared: SharedMessage | None) -> None:
         if not self._connected:
@@ -117,10 +137,14 @@ class SubscriberSocket:
         start = time.monotonic()
         poll = select.poll()
         poll.register(self._socket, select.POLLOUT)
-        while not self._stalled and time.monotonic() - start < HOLD_S:
-            if poll.poll(_POLL_MS) and shared is not None:
-                time.sleep(_POLL_MS / 1000)
-            if self._try(self._send, packet, shared):
+        while not self._stalled and not self.lost and time.monotonic() - start < HOLD_S:
+            if poll.poll(_POLL_MS):
+                time.sleep(_PAUSE_S)
+            self._flush()
+            if not self._queue and self._try(self._send, packet, shared):
+                return
+            if self._has_room(shared):
+                self._append(packet, shared, counts)
                 return
         if not self._stalled:
             self._stalled = True
@@ -131,15 +155,22 @@ class SubscriberSocket:
 
     def flush(self) -> bool:
         """Move packets from the queue into the socket; returns whether any was moved."""
+        if not self._lock.acquire(blocking=False):  # a publisher is held, and flushes itself
+            return False
+        try:
+            return self._flush()
+        finally:
+            self._lock.release()
+
+    def _flush(self) -> bool:
         moved = False
-        with self._lock:
-            while self._queue and not self.lost:
-                packet, shared, _ = self._queue[0]
-                if not self._try(self._send, packet, shared):
-                    break
-                moved = True
-                if self._queue:
-                    self._queue.popleft()
+        while self._queue and not self.lost:
+            packet, shared, _ = self._queue[0]
+            if not self._try(self._send, packet, shared):
+                break
+            moved = True
+            if self._queue:
+                self._queue.popleft()
         return moved
 
     @property

@@ -8,13 +8,11 @@ from __future__ import annotations
 import os
 import platform
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from robocomp_dsl.runtime.codec.bottle.from_bottle import as_items
 from robocomp_dsl.runtime.codec.bottle.values import Bottle, is_word, vocab
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.middleware.yarp.port import YarpPort
+from robocomp_dsl.runtime.middleware.yarp.port_protocols import AdministeredPort
 
 _OK, _FAIL = vocab("ok"), vocab("fail")
 _COMMANDS = (
@@ -34,7 +32,7 @@ _COMMANDS = (
 MAX_PROPERTIES = 1000
 
 
-def answer_admin(port: YarpPort, command: Bottle) -> list[Any]:
+def answer_admin(port: AdministeredPort, command: Bottle) -> list[Any]:
     """The reply of `port` to a command."""
     items = as_items(command)
     word = next((name for name in _ANSWERS if items and is_word(items[0], name)), "")
@@ -43,11 +41,11 @@ def answer_admin(port: YarpPort, command: Bottle) -> list[Any]:
     return _ANSWERS[word](port, items[1:])
 
 
-def _help(_port: YarpPort, _items: list[Any]) -> list[Any]:
+def _help(_port: AdministeredPort, _items: list[Any]) -> list[Any]:
     return [vocab("many"), *_COMMANDS]
 
 
-def _version(_port: YarpPort, _items: list[Any]) -> list[Any]:
+def _version(_port: AdministeredPort, _items: list[Any]) -> list[Any]:
     return [vocab("ver"), 1, 2, 3]
 
 
@@ -61,7 +59,7 @@ def split_target(items: list[Any]) -> tuple[str, str]:
     return text, chosen
 
 
-def _add(port: YarpPort, items: list[Any]) -> list[Any]:
+def _add(port: AdministeredPort, items: list[Any]) -> list[Any]:
     name, carrier = split_target(items)
     shown = items[0] if items else ""
     if port.outputs is None:
@@ -71,7 +69,7 @@ def _add(port: YarpPort, items: list[Any]) -> list[Any]:
     return [0, f"Added connection from {port.name} to {shown}\r\n"]
 
 
-def _delete(port: YarpPort, items: list[Any]) -> list[Any]:
+def _delete(port: AdministeredPort, items: list[Any]) -> list[Any]:
     name, _ = split_target(items)
     if port.outputs is not None and port.outputs.remove(name):
         return [0, f"Removed connection from {port.name} to {name}\r\n"]
@@ -81,7 +79,7 @@ def _delete(port: YarpPort, items: list[Any]) -> list[Any]:
     return [-1, f"{outgoing}Could not find an incoming connection from {name}\r\n"]
 
 
-def _list(port: YarpPort, items: list[Any]) -> list[Any]:
+def _list(port: AdministeredPort, items: list[Any]) -> list[Any]:
     if not items:
         return []
     if is_word(items[0], "in"):
@@ -99,7 +97,7 @@ def _list(port: YarpPort, items: list[Any]) -> list[Any]:
     return [["from", ends[0]], ["to", ends[1]], ["carrier", found[name]]]
 
 
-def _property(port: YarpPort, items: list[Any]) -> list[Any]:
+def _property(port: AdministeredPort, items: list[Any]) -> list[Any]:
     if items and is_word(items[0], "get"):
         return _get_property(port, items[1:])
     if len(items) > 2 and is_word(items[0], "set") and isinstance(items[1], str):
@@ -110,7 +108,7 @@ def _property(port: YarpPort, items: list[Any]) -> list[Any]:
     return [_FAIL, "write [prop] [get] key, or [prop] [set] key value"]
 
 
-def _get_property(port: YarpPort, keys: list[Any]) -> list[Any]:
+def _get_property(port: AdministeredPort, keys: list[Any]) -> list[Any]:
     if not keys:
         return [[key, *value] for key, value in port.properties.items()]
     if keys[0] == port.name:
@@ -120,7 +118,7 @@ def _get_property(port: YarpPort, keys: list[Any]) -> list[Any]:
     return list(port.properties.get(str(keys[0]), []))
 
 
-def _self(port: YarpPort) -> list[Any]:
+def _self(port: AdministeredPort) -> list[Any]:
     kind = [
         ["is_input", int(port.receiver is not None)],
         ["is_output", int(port.outputs is not None)],

@@ -17,10 +17,8 @@ from robocomp_dsl.runtime.codec.bottle.text_writer import write_text
 from robocomp_dsl.runtime.codec.bottle.values import Bottle
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
 from robocomp_dsl.runtime.middleware.yarp import wire
+from robocomp_dsl.runtime.middleware.yarp.port_protocols import ListeningPort
 from robocomp_dsl.runtime.middleware.yarp.stream import MAX_LINE, ConnectionLost, Stream
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.middleware.yarp.port import YarpPort
 
 SET_UP_S = 10.0
 """A client that connects must name its carrier within this time."""
@@ -45,7 +43,7 @@ _HELP = (
 class Incoming:
     """A connection. `sender` is the name of the other port."""
 
-    def __init__(self, port: YarpPort, stream: Stream, profile: Profile) -> None:
+    def __init__(self, port: ListeningPort, stream: Stream, profile: Profile) -> None:
         self.sender = ""
         self.carrier = ""
         self._port = port
@@ -105,7 +103,7 @@ class Incoming:
             if message.command == "q":
                 return
 
-    def _handle_binary(self, message: wire.Message) -> Bottle | None:
+    def _handle_binary(self, message: wire.YarpMessage) -> Bottle | None:
         try:
             bottle = read_binary(message.payload, self._profile)
         except MalformedMessage as error:

@@ -23,8 +23,8 @@ from robocomp_dsl.runtime.middleware.yarp.name_client import (
     NameServerLost,
     name_server_address,
 )
-from robocomp_dsl.runtime.middleware.yarp.name_table import NameTable, Registered
 from robocomp_dsl.runtime.middleware.yarp.port import YarpPort
+from robocomp_dsl.runtime.middleware.yarp.registrations import Registered, RegistrationTable
 from robocomp_dsl.runtime.middleware.yarp.stream import Stream
 
 _PREFIX = "NAME_SERVER"
@@ -34,7 +34,7 @@ _NOT_KNOWN: list[Any] = ["port", ["error", -2, "port not known"]]
 class NameReceiver:
     """Replies to requests that arrive as Bottles."""
 
-    def __init__(self, table: NameTable) -> None:
+    def __init__(self, table: RegistrationTable) -> None:
         self._table = table
 
     def receive(self, bottle: Bottle, size: int, *, wants_reply: bool) -> Bottle | None:
@@ -84,7 +84,7 @@ class NameServer(YarpPort):
         name = os.environ.get("YARP_NAMESPACE") or "/root"
         self._table_ready = threading.Event()
         super().__init__(name, at)
-        self.table = NameTable(name, at[0], self.number)
+        self.table = RegistrationTable(name, at[0], self.number)
         self.receiver = NameReceiver(self.table)
         self._table_ready.set()
 

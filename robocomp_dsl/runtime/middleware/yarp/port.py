@@ -12,7 +12,6 @@ import socket
 import threading
 import time
 from collections.abc import Callable
-from typing import Protocol
 
 from robocomp_dsl.runtime.codec.bottle.profile import PROFILE_3, Profile
 from robocomp_dsl.runtime.codec.bottle.values import Bottle
@@ -21,37 +20,12 @@ from robocomp_dsl.runtime.component.user_errors import describe_error
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, MiddlewareError
 from robocomp_dsl.runtime.middleware.yarp.admin import answer_admin
 from robocomp_dsl.runtime.middleware.yarp.incoming import Incoming
+from robocomp_dsl.runtime.middleware.yarp.port_protocols import Outputs, Receiver
 from robocomp_dsl.runtime.middleware.yarp.stream import Stream, reason
 
 MAX_CONNECTIONS = 256
 """Incoming connections of one port; further ones are closed at once."""
 log = logging.getLogger("robocomp")
-
-
-class Receiver(Protocol):
-    """What takes the messages of a port."""
-
-    def receive(self, bottle: Bottle, size: int, *, wants_reply: bool) -> Bottle | None:
-        """Handle a message of `size` bytes; returns the reply."""
-
-    def reject(self, error: MalformedMessage) -> Bottle:
-        """A message cannot be read; returns the reply."""
-
-    def unwritable(self, error: EncodeError) -> Bottle:
-        """A reply cannot be written; returns another."""
-
-
-class Outputs(Protocol):
-    """The outgoing connections of a port."""
-
-    def add(self, name: str, carrier: str) -> str:
-        """Connect to the port `name`; returns why not, or an empty text."""
-
-    def remove(self, name: str) -> bool:
-        """Disconnect; returns whether there was a connection."""
-
-    def carriers(self) -> dict[str, str]:
-        """The carriers by the names of the connected ports."""
 
 
 class YarpPort:

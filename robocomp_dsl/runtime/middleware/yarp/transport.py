@@ -19,7 +19,8 @@ from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress, parse_ad
 from robocomp_dsl.runtime.middleware.yarp.client import YarpServiceClient
 from robocomp_dsl.runtime.middleware.yarp.name_client import NameClient, name_server_address
 from robocomp_dsl.runtime.middleware.yarp.outgoing import resolver
-from robocomp_dsl.runtime.middleware.yarp.port import Outputs, Receiver, YarpPort
+from robocomp_dsl.runtime.middleware.yarp.port import YarpPort
+from robocomp_dsl.runtime.middleware.yarp.port_protocols import Outputs, Receiver
 from robocomp_dsl.runtime.middleware.yarp.publisher import OutputLinks, YarpPublisher
 from robocomp_dsl.runtime.middleware.yarp.registration import Registration
 from robocomp_dsl.runtime.middleware.yarp.service import OperationReceiver

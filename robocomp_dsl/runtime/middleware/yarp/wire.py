@@ -75,7 +75,7 @@ def frame(payload: bytes, command: str = "D", envelope: str = "") -> bytes:
 
 
 @dataclass(frozen=True, slots=True)
-class Message:
+class YarpMessage:
     """A received message: `command` as in `frame`, or another command of the port."""
 
     command: str
@@ -84,7 +84,7 @@ class Message:
     size: int
 
 
-def read_message(stream: Stream) -> Message:
+def read_message(stream: Stream) -> YarpMessage:
     """The next message. Raises `MalformedMessage` if the bytes are no frame, `ConnectionLost`."""
     head = read_number(stream.take(8))
     if head != 10:
@@ -98,7 +98,7 @@ def read_message(stream: Stream) -> Message:
     return _split(stream.take(size), size)
 
 
-def _split(data: bytes, size: int) -> Message:
+def _split(data: bytes, size: int) -> YarpMessage:
     """The port header and the payload."""
     if size < 8 or data[4:5] != b"~":
         raise MalformedMessage("the frame has no header of a port")
@@ -106,7 +106,7 @@ def _split(data: bytes, size: int) -> Message:
     if not 0 <= length <= min(size - 8, MAX_NAME):
         raise MalformedMessage(f"the header of the port claims a text of {length} bytes")
     if not length:
-        return Message(chr(data[5]), "", data[8:], size)
+        return YarpMessage(chr(data[5]), "", data[8:], size)
     text = data[8 : 8 + length].split(b"\0")[0].decode(errors="replace")
     command, _, envelope = text.partition(" ")
-    return Message(command, envelope, data[8 + length :], size)
+    return YarpMessage(command, envelope, data[8 + length :], size)

@@ -44,7 +44,7 @@ class Registered:
         )
 
 
-class NameTable:
+class RegistrationTable:
     """The registered ports; safe for several threads."""
 
     def __init__(self, root: str, host: str, number: int) -> None:
@@ -149,15 +149,15 @@ class NameTable:
         return []
 
 
-_COMMANDS: dict[str, Callable[[NameTable, list[str], str], Iterable[str]]] = {
-    "query": NameTable._query,
-    "list": NameTable._list,
-    "register": NameTable._register,
-    "unregister": NameTable._unregister,
-    "set": NameTable._set,
-    "get": NameTable._get,
-    "check": NameTable._check,
-    "route": NameTable._route,
-    "help": NameTable._help,
-    "runners": NameTable._runners,
+_COMMANDS: dict[str, Callable[[RegistrationTable, list[str], str], Iterable[str]]] = {
+    "query": RegistrationTable._query,
+    "list": RegistrationTable._list,
+    "register": RegistrationTable._register,
+    "unregister": RegistrationTable._unregister,
+    "set": RegistrationTable._set,
+    "get": RegistrationTable._get,
+    "check": RegistrationTable._check,
+    "route": RegistrationTable._route,
+    "help": RegistrationTable._help,
+    "runners": RegistrationTable._runners,
 }
