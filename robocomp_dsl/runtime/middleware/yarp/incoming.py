@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from robocomp_dsl.runtime.codec.bottle.binary_reader import read_binary
 from robocomp_dsl.runtime.codec.bottle.binary_writer import write_binary
