@@ -13,15 +13,15 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING
 
 from robocomp_dsl import __version__
 from robocomp_dsl.runtime.component import logs
 from robocomp_dsl.runtime.component.component import Component
 from robocomp_dsl.runtime.component.invalid_setting import InvalidSetting
+from robocomp_dsl.runtime.component.process_exit import exit_now, exit_with
 from robocomp_dsl.runtime.component.qos_settings import parse_qos
 from robocomp_dsl.runtime.component.settings import (
     RunSettings,
@@ -51,7 +51,17 @@ log = logging.getLogger("robocomp")
 
 
 def main(component: type[Component], argv: Sequence[str] | None = None) -> int:
-    """Run `component` until it stops or is stopped; returns the exit code of the process."""
+    """Run `component` until it stops or is stopped; returns the exit code of the process.
+
+    Called by a program itself, it also sets how the process ends: see `process_exit`.
+    """
+    code = _main(component, argv)
+    if sys._getframe(1).f_globals.get("__name__") == "__main__":
+        exit_with(code)
+    return code
+
+
+def _main(component: type[Component], argv: Sequence[str] | None) -> int:
     parser = _parser(component.SPEC)
     options = parser.parse_args(argv)
     try:
@@ -126,17 +136,8 @@ def _run(component: type[Component], params: Parameters, settings: RunSettings) 
     runner.start()
     succeeded = runner.wait()
     if runner.abandoned:
-        _exit_now()
+        exit_now(1)  # one of its threads hangs
     return 0 if succeeded else 1
-
-
-def _exit_now() -> NoReturn:
-    """Exit as failed without waiting for threads: one of them hangs."""
-    logging.shutdown()
-    with suppress(OSError, ValueError):
-        sys.stdout.flush()
-        sys.stderr.flush()
-    os._exit(1)
 
 
 def _on_signals(stop: Callable[[], None]) -> None:

@@ -43,7 +43,9 @@ def test_wheel_holds_no_build_products(wheel: Path) -> None:
 def test_sdist_builds_the_same_wheel(wheel: Path, tmp_path: Path) -> None:
     archive = build("sdist", ROOT, tmp_path / "sdist")
     with tarfile.open(archive) as opened:
-        opened.extractall(tmp_path, filter="data")
+        opened.extractall(
+            tmp_path, **({"filter": "data"} if hasattr(tarfile, "data_filter") else {})
+        )
     (source,) = tmp_path.glob("robocomp_dsl-*")
     assert _names(build("wheel", source, tmp_path / "again")) == _names(wheel)
 
