@@ -75,9 +75,9 @@ def test_qos_changes_the_ends_that_it_concerns(deployment: Deployment) -> None:
         listed = json.loads(run(deployment, "connections", "--json"))
         return {(row["component"], row["peer"]): row["qos"] for row in listed}
 
-    wait_until(lambda: ("a", "sink.News") in qos(), "the publisher knows its subscriber")
-    assert qos()["sink", "a.News"] == "depth=9"
-    assert qos()["a", "sink.News"] == "priority=high"
+    changed = {("sink", "a.News"): "depth=9", ("a", "sink.News"): "priority=high"}
+    # A busy component may not answer in time: its rows are missing then.
+    wait_until(lambda: changed.items() <= qos().items(), "both ends show the change")
     output = run(deployment, "qos", "a.News", "sink.News", "priority=off", "depth=off")
     assert "the defaults" in output
 
