@@ -27,7 +27,7 @@ from robocomp_dsl.deploy.status import ProcessStatus, SimulatedTime
 JOURNAL_SIZE = 10_000
 """Records that `logs` can show from the past, and the queue length of each follower."""
 REPLY_TIMEOUT_S = 0.5
-"""rcdeploy answers within a millisecond; one that is stopped never."""
+"""rcdeploy answers within a millisecond; a stopped rcdeploy never."""
 _CONNECT_PERIOD_S = 0.01
 _STATUS = {"verb": "status"}
 RecordFilter: TypeAlias = Callable[[LogRecord], bool]
@@ -38,7 +38,7 @@ RequestHandler: TypeAlias = Callable[
 
 
 class LogJournal:
-    """Ring buffer of the latest records, with followers that receive new ones."""
+    """Ring buffer of the latest records, with followers that receive new records."""
 
     def __init__(self) -> None:
         self._records: deque[LogRecord] = deque(maxlen=JOURNAL_SIZE)

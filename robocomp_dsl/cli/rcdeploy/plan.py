@@ -26,7 +26,7 @@ from robocomp_dsl.deploy.plan_text import format_limits, format_readiness
 @click.option(
     "--name", metavar="NAME", help="Name of the running deployment; default: its name in the file."
 )
-@click.option("--domain", metavar="NAME", help="Communication domain; default: a new one.")
+@click.option("--domain", metavar="NAME", help="Communication domain; default: a new domain.")
 @click.option("--format", "output_format", type=click.Choice(["text", "json"]), default="text")
 def command(
     app: Path,

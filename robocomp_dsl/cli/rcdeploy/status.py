@@ -1,4 +1,4 @@
-"""`rcdeploy status`: shows a deployment's components. In: a running one. Out: a table or JSON.
+"""`rcdeploy status`: shows a deployment's components. Out: a table or JSON.
 
 The supervisor knows the processes; lifecycles and state machines are queried from the components.
 """
@@ -53,7 +53,7 @@ def command(which: str | None, output_format: str) -> None:
 class DeploymentReport:
     """The status of one deployment; `clock` is None without a simulated clock.
 
-    rcdeploy starts no external program, so it knows no state of one.
+    rcdeploy starts no external program, so it knows no state of it.
     """
 
     deployment: instances.RunningDeployment
