@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from robocomp_dsl.deploy import instances
+from robocomp_dsl.deploy.external_connection import ConnectionStatus
 from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.status import ProcessStatus, SimulatedTime
@@ -83,6 +84,7 @@ class ControlServer:
         time: Callable[[], SimulatedTime | None],
         handle_request: RequestHandler,
         externals: Callable[[], Sequence[ExternalProgram]],
+        connections: Callable[[], Sequence[ConnectionStatus]] = tuple,
     ) -> None:
         self._journal = journal
         self._statuses = statuses
@@ -90,6 +92,7 @@ class ControlServer:
         self._time = time
         self._handle_request = handle_request
         self._externals = externals
+        self._external_connections = connections
         self._outcome: asyncio.Future[dict[str, Any]] | None = None
         self._connections: set[asyncio.Task[None]] = set()
 
@@ -129,10 +132,13 @@ class ControlServer:
         match request.get("verb"):
             case "status":
                 statuses, time = self._statuses(), self._time()
-                clock = time.as_dict() if time else None
-                rows = [process.as_dict() for process in statuses]
-                externals = [program.as_dict() for program in self._externals()]
-                await _send(writer, {"rows": rows, "clock": clock, "externals": externals})
+                answer = {
+                    "rows": [process.as_dict() for process in statuses],
+                    "clock": time.as_dict() if time else None,
+                    "externals": [program.as_dict() for program in self._externals()],
+                    "connections": [link.as_dict() for link in self._external_connections()],
+                }
+                await _send(writer, answer)
             case "logs":
                 await self._logs(request, reader, writer)
             case "start" | "stop" | "restart" as verb if verb != "stop" or "components" in request:

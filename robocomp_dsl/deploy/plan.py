@@ -21,6 +21,7 @@ from robocomp_dsl.model.deployment import (
     Clock,
     Deployment,
     External,
+    ExternalConnection,
     Instance,
     Readiness,
     ResourceLimits,
@@ -81,6 +82,7 @@ class Plan:
     processes: tuple[Process, ...]
     clock: str = "wall"
     externals: tuple[ExternalProgram, ...] = ()
+    external_connections: tuple[ExternalConnection, ...] = ()
 
     def shutdown_batches(self) -> list[list[str]]:
         """Names of processes to stop, batch after batch; those of one batch stop together."""
@@ -107,6 +109,7 @@ def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) ->
         processes,
         describe_clock(deployment.clock),
         tuple(_external(external, deployment) for external in deployment.externals),
+        deployment.external_connections,
     )
 
 

@@ -118,6 +118,7 @@ async def _run(
         supervisor.simulated_time,
         requests.handle,
         lambda: supervisor.plan.externals,
+        supervisor.external_connections.statuses,
     )
     await server.open(lock.folder / instances.SOCKET)
     path = str(plan.path.resolve())

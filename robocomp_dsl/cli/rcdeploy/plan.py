@@ -15,8 +15,10 @@ from robocomp_dsl.cli import options
 from robocomp_dsl.cli.output.render import strip_control_chars
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import app as rcdeploy_app
+from robocomp_dsl.deploy.external_connection import describe_connection
 from robocomp_dsl.deploy.plan import Plan, Process, batches
 from robocomp_dsl.deploy.plan_text import format_limits, format_readiness
+from robocomp_dsl.model.deployment import ExternalConnection
 
 
 @click.command()
@@ -63,7 +65,17 @@ def as_data(plan: Plan) -> dict[str, Any]:
         "clock": plan.clock,
         "processes": [_process(process) for process in plan.processes],
         "externals": [program.as_dict() for program in plan.externals],
+        "external_connections": [_connection(each) for each in plan.external_connections],
         "stop": plan.shutdown_batches(),
+    }
+
+
+def _connection(connection: ExternalConnection) -> dict[str, str]:
+    return {
+        "middleware": connection.middleware,
+        "source": connection.source,
+        "target": connection.target,
+        "carrier": connection.carrier,
     }
 
 
@@ -101,8 +113,13 @@ def as_text(plan: Plan) -> Iterator[str]:
             yield ""
             yield from _described(process, wave)
     for program in plan.externals:
-        port, connection = program.format()
-        yield from ("", port, f"   {connection}")
+        port, connected = program.format()
+        yield from ("", port, f"   {connected}")
+    if plan.external_connections:
+        yield ""
+        yield "connections that rcdeploy makes and keeps:"
+    for connection in plan.external_connections:
+        yield f"   {describe_connection(connection)}"
     yield ""
     yield "stops: " + ", then ".join(" and ".join(wave) for wave in plan.shutdown_batches())
 

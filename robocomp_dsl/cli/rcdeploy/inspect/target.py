@@ -64,10 +64,11 @@ def _begins_with_name(args: Sequence[str]) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class DomainTarget:
-    """A domain; `components` are known if a deployment of rcdeploy runs in it."""
+    """A domain; `components` and the name `deployment` are known if rcdeploy runs one in it."""
 
     domain: str
     components: tuple[str, ...] = ()
+    deployment: str = ""
 
     def component(self, name: str) -> str:
         """The full name of a component. Raises `CliError`."""
@@ -94,7 +95,7 @@ def resolve_domain(deployment: str | None, domain: str | None) -> DomainTarget:
     from robocomp_dsl.cli.rcdeploy import running  # noqa: PLC0415 - only for deployments
 
     found = running.resolve_deployment(deployment)
-    return DomainTarget(found.domain, tuple(running.components(found)))
+    return DomainTarget(found.domain, tuple(running.components(found)), found.name)
 
 
 @contextmanager
