@@ -12,6 +12,7 @@ from typing import Any
 
 from robocomp_dsl.runtime.codec.bottle import messages
 from robocomp_dsl.runtime.codec.bottle.binary_writer import write_binary
+from robocomp_dsl.runtime.codec.bottle.layout import Layout
 from robocomp_dsl.runtime.codec.bottle.profile import Profile
 from robocomp_dsl.runtime.codec.bottle.values import Bottle
 from robocomp_dsl.runtime.component.interface import Operation
@@ -110,7 +111,13 @@ class YarpPublisher:
     """A published port."""
 
     def __init__(
-        self, at: Endpoint, links: OutputLinks, address: str, close: Any, profile: Profile
+        self,
+        at: Endpoint,
+        links: OutputLinks,
+        address: str,
+        close: Any,
+        profile: Profile,
+        layout: Layout = Layout.YARP,
     ) -> None:
         """`close` ends the port of YARP. Raises `MiddlewareError` for an invalid address."""
         self.address = address
@@ -118,6 +125,7 @@ class YarpPublisher:
         self._links = links
         self._close_port = close
         self._profile = profile
+        self._layout = layout
         self._numbers = count()
         self._plain = messages.is_plain_topic(at.interface)
         self._attached: dict[PortRecord, str] = {}
@@ -129,7 +137,7 @@ class YarpPublisher:
         """See `Publisher`."""
         links, profile = self._links, self._profile
         encoder = messages.plain_encoder if self._plain else messages.request_encoder
-        convert = encoder(operation)
+        convert = encoder(operation, self._layout)
         stamp_of, numbers = published_stamp(operation), self._numbers
 
         def encode(arguments: tuple[Any, ...]) -> tuple[Bottle, bytes, str]:
