@@ -74,11 +74,11 @@ def image_to_items(type_: type[Any]) -> Callable[[Any], list[Any]]:
         except EncodeError as error:
             raise EncodeError(error.reason, "data") from None
         step = step or width * pixel
-        if step < width * pixel or len(data) != step * height:
+        if step < width * pixel:
+            raise EncodeError(f"is {step}, but {width} pixels have {width * pixel} bytes", "step")
+        if len(data) != step * height:
             raise EncodeError(
-                f"{width} x {height} pixels of {pixel} bytes in rows of {step} bytes need"
-                f" {max(step, width * pixel) * height} bytes, not {len(data)}",
-                "data",
+                f"{height} rows of {step} bytes have {step * height} bytes, not {len(data)}", "data"
             )
         if image.is_bigendian and number > 1:
             data = _swapped(data, step, width * pixel, number)
