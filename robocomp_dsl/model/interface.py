@@ -80,9 +80,13 @@ class Operation(Record):
 
 
 class Interface(Declaration):
-    """An interface of a module."""
+    """An interface of a module. `style` is "thrift" for a service of a Thrift definition, else "".
+
+    A middleware may have a wire form for a style: YARP carries calls as yarpidl_thrift does.
+    """
 
     operations: tuple[Operation, ...]
+    style: str = ""
 
 
 class Module(Record):

@@ -49,7 +49,7 @@ class _Resolver:
         self._written = {node.name.text: node for node in written}
         self._declared: dict[str, types.Declaration | None] = {}
         self._open: dict[str, QualifiedName | None] = {}
-        primitives = types.ROS_PRIMITIVES if tree.is_ros else types.PRIMITIVES
+        primitives = types.ROS_PRIMITIVES if tree.origin else types.PRIMITIVES
         self._names = TypeResolver(
             tree.name.text, self._written, self._own, visible, report, primitives
         )
@@ -109,7 +109,8 @@ class _Resolver:
                 key, value = self._names.data(tree.key), self._names.data(tree.value)
                 return types.Dictionary(*head, key, value) if key and value else None
             case ast.Interface():
-                return model.Interface(*head, self._operations(tree.operations))
+                style = "thrift" if self._tree.origin == "thrift" else ""
+                return model.Interface(*head, self._operations(tree.operations), style)
 
     def _fields(
         self, trees: Sequence[ast.Field], constants: Sequence[ast.Constant] = ()

@@ -35,11 +35,15 @@ class OperationCode(ValueRecord):
 
 
 class InterfaceCode(ValueRecord):
-    """One interface; `proxy` is empty if the component only serves it."""
+    """One interface; `proxy` is empty if the component only serves it.
+
+    `style` is a Python expression, or empty.
+    """
 
     constant: str
     qualified: str
     operations: tuple[OperationCode, ...]
+    style: str = ""
     proxy: str = ""
     doc: str = ""
     methods: tuple[MethodCode, ...] = ()
@@ -52,13 +56,15 @@ def interface_code(
     """The spec of an interface, and a proxy if one of `ports` calls or publishes."""
     operations = tuple(_operation(o, types) for o in interface.operations)
     qualified = literals.quoted(interface.qualified)
+    style = literals.quoted(interface.style) if interface.style else ""
     outgoing = [p for p in ports if p.role in (Role.REQUIRES, Role.PUBLISHES)]
     if not outgoing:
-        return InterfaceCode(interface_names.constant, qualified, operations)
+        return InterfaceCode(interface_names.constant, qualified, operations, style)
     return InterfaceCode(
         interface_names.constant,
         qualified,
         operations,
+        style,
         interface_names.proxy,
         literals.docstring(interface.doc, INNER, f"Calls {interface.qualified}."),
         tuple(method_code(o, interface_names, types) for o in interface.operations),

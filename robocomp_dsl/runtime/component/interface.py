@@ -105,11 +105,16 @@ class Operation:
 
 
 class Interface:
-    """One interface, `name` as in `Module::Interface`."""
+    """One interface, `name` as in `Module::Interface`.
 
-    def __init__(self, name: str, *operations: Operation) -> None:
+    `style` is "thrift" if it was imported from a Thrift service, else "". The middleware `yarp`
+    carries calls of that style as the code of yarpidl_thrift does; others do not distinguish.
+    """
+
+    def __init__(self, name: str, *operations: Operation, style: str = "") -> None:
         self.name = name
         self.operations = operations
+        self.style = style
 
     @cached_property
     def hash(self) -> bytes:

@@ -135,12 +135,16 @@ Declaration: TypeAlias = Struct | ExceptionDecl | Enum | Sequence | Dictionary |
 
 
 class Module(Node):
-    """`module Name { declarations };`; `is_ros`: a ROS definition, with ROS's built-in types."""
+    """`module Name { declarations };`.
+
+    `origin` is the language of an imported definition, "ros", "thrift" or "bottle", else ""; these
+    have the built-in types of ROS.
+    """
 
     name: Name
     declarations: tuple[Declaration, ...]
     doc: str = ""
-    is_ros: bool = False
+    origin: str = ""
 
 
 class File(Node):

@@ -88,7 +88,7 @@ class _Builder:
         span = self._source.span(0, size)
         # Not where the first struct is: positions identify declarations.
         name = Name(self._source.span(size, size), self._package)
-        module = ast.Module(span, name, tuple(structs), is_ros=True)
+        module = ast.Module(span, name, tuple(structs), origin="ros")
         return ast.File(span, tuple(self._imports.values()), (module,), not self._failed)
 
     def _check_sections(self, sections: list[Section], expected: int) -> None:
