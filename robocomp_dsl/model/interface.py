@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import StrEnum
 from pathlib import Path
 
-from robocomp_dsl.model.types import Declaration, ExceptionType, Struct, Type
+from robocomp_dsl.model.types import Alias, Declaration, ExceptionType, Struct, Type
 from robocomp_dsl.record import Record
 from robocomp_dsl.source import Span
 
@@ -83,16 +83,25 @@ class Interface(Declaration):
     """An interface of a module. `style` is "thrift" for a service of a Thrift definition, else "".
 
     A middleware may have a wire form for a style: YARP carries calls as yarpidl_thrift does.
+    The first of its operations are those of its `base`.
     """
 
     operations: tuple[Operation, ...]
     style: str = ""
+    base: Interface | None = None
+
+    @property
+    def own_operations(self) -> tuple[Operation, ...]:
+        """The operations that are declared in the interface itself."""
+        return self.operations[len(self.base.operations) if self.base else 0 :]
 
 
 class Module(Record):
     """One IDSL file, resolved. `declarations` holds types, exceptions and interfaces in order.
 
-    `imports` are the modules it imports, resolved, in order of writing.
+    `imports` are the modules it imports, resolved, in order of writing; `aliases` are other names
+    of types, which only Thrift definitions have. `origin` is the language of an imported
+    definition, "ros", "thrift" or "bottle", else "".
     """
 
     name: str
@@ -101,6 +110,8 @@ class Module(Record):
     doc: str
     imports: tuple[Module, ...]
     declarations: tuple[Declaration, ...]
+    aliases: tuple[Alias, ...] = ()
+    origin: str = ""
 
     @property
     def interfaces(self) -> tuple[Interface, ...]:
@@ -110,7 +121,7 @@ class Module(Record):
     @property
     def is_ros(self) -> bool:
         """Whether it is a ROS definition."""
-        return any(isinstance(d, Struct) and d.ros_name for d in self.declarations)
+        return self.origin == "ros"
 
     def closure(self) -> tuple[Module, ...]:
         """The module and all its direct and indirect imports, imported modules first."""

@@ -11,6 +11,7 @@ from robocomp_dsl.cli.rcgen.explain import stage_codes
 from robocomp_dsl.diagnostics import Code, Report
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.parse import (
+    parse_bottle,
     parse_cdsl,
     parse_ddsl,
     parse_idsl,
@@ -18,9 +19,12 @@ from robocomp_dsl.syntax.parse import (
     parse_pdsl,
     parse_ros,
     parse_smdsl,
+    parse_thrift,
 )
 
 HEADS = {
+    r"^\s*\d+:|^\s*(service|union)\b|\byarp\.name\b": (".thrift", parse_thrift),
+    r"^\((\w+ )+": (".bottle", parse_bottle),
     r"^\s*ComponentParams\b": (".pdsl", parse_pdsl),
     r"^\s*Deployment\b": (".ddsl", parse_ddsl),
     r"\b(initial_state|transitions?)\b": (".smdsl", parse_smdsl),

@@ -77,6 +77,10 @@ def _dictionary(dictionary: types.Dictionary) -> str:
     return head + _referenced_signature(dictionary.value)
 
 
+def _alias(alias: types.Alias) -> str:
+    return f"typedef {type_name(alias.target)} {alias.name};" + _referenced_signature(alias.target)
+
+
 def _module(module: Module) -> str:
     names = [declaration.name for declaration in module.declarations]
     return format_block(f"module {module.name}", names)
@@ -118,6 +122,7 @@ SIGNATURES: dict[type, Callable[[Any], str]] = {
     types.Enumerator: _enumerator,
     types.Sequence: _sequence,
     types.Dictionary: _dictionary,
+    types.Alias: _alias,
     types.Field: _member,
     types.Constant: _constant,
     Param: _member,
