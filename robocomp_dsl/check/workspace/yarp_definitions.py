@@ -57,7 +57,9 @@ class YarpDefinitions:
         """Report a definition that is in none of the folders."""
         written, span = statement.path.value, statement.path.span
         beside = span.source.path
-        guess = nearest(written.rpartition("/")[2], self.importable(beside, root))
+        stems = {PurePosixPath(name).stem: name for name in self.importable(beside, root)}
+        stem = nearest(PurePosixPath(written).stem, stems)
+        guess = stems[stem] if stem else ""
         searched = join_names([str(folder) for folder in self.search_path(beside, root)])
         fix = Fix(f'change to `"{guess}"`', (Edit(span, f'"{guess}"'),)) if guess else None
         report.add(

@@ -83,14 +83,14 @@ class Cursor:
 
     def expect_kind(self, kind: str, what: str) -> ThriftToken:
         """Read a token of this kind; `what` names it for messages."""
-        if self.token.kind != kind:
+        if self.token.kind != kind or self._starts_statement():
             self.fail(f"expected {what}")
         return self.next()
 
     def name(self, what: str) -> Name:
         """Read a name without dots."""
         token = self.token
-        if token.kind != WORD or "." in token.text:
+        if token.kind != WORD or "." in token.text or self._starts_statement():
             self.fail(f"expected {what}")
         self.next()
         return Name(token.span, token.text)
@@ -110,11 +110,16 @@ class Cursor:
         if self._count <= LIMIT:
             self._report.add(code, span, message, help=help_)
 
+    def _starts_statement(self) -> bool:
+        """Whether the next token is a keyword at the start of a line: another statement."""
+        token = self.token
+        return token.is_first and token.text in TOP and self.following.kind in (WORD, TEXT)
+
     def skip_statement(self, *, inside: bool) -> None:
         """Continue behind a mistake: at the next statement or, `inside` braces, the next member."""
         while not self.is_at_end:
             token = self.token
-            if token.is_first and token.text in TOP and self.following.kind in (WORD, TEXT):
+            if self._starts_statement():
                 return
             if inside and (token.text == "}" or (token.is_first and token.kind != TEXT)):
                 return

@@ -71,7 +71,8 @@ class _Builder:
                 cursor.skip_statement(inside=False)
         size = len(self._source.text)
         span = self._source.span(0, size)
-        declarations = (*self._types.implicit.values(), *self._declarations, *self._struct())
+        implicit = self._types.implicit.values()
+        declarations = (*self._declarations, *self._struct(), *implicit)
         # Not where the first declaration is: positions identify declarations.
         name = Name(self._source.span(size, size), module_name(self._source.path))
         module = ast.Module(span, name, declarations, origin="thrift")

@@ -44,15 +44,17 @@ class TypeReader:
         """Read a type with the annotations behind it. Raises `SyntaxMistake`."""
         cursor = self._cursor
         token = cursor.token
-        if token.kind != WORD:
-            cursor.fail("expected a type")
         if depth > MAX_DEPTH:
             cursor.fail(f"expected at most {MAX_DEPTH} containers in each other")
         if token.text in CONTAINERS and cursor.following.text in ("<", "cpp_type"):
             name = self._container(depth)
         else:
-            cursor.next()
+            cursor.expect_kind(WORD, "a type")
             name = self._named(token.span, token.text)
+            if cursor.token.text == "<":
+                message = f"`{token.text}` is not `list`, `set` or `map`"
+                cursor.report(codes.THRIFT_STATEMENT, token.span, message)
+                raise SyntaxMistake
         read_annotations(cursor)
         return name
 
