@@ -56,7 +56,9 @@ _BRACKETS = re.compile(r"\[([^\[\]]+)\]")
 _PARENTHESES = re.compile(r"\((?:in\s+)?([^()]+)\)", re.IGNORECASE)
 _LONGEST_FIRST = sorted((unit for unit in _UNITS if len(unit) > 2), key=len, reverse=True)
 _PHRASE = re.compile(
-    rf"\bin\s+({'|'.join(map(re.escape, _LONGEST_FIRST))})(?![\w/^])", re.IGNORECASE
+    rf"\bin\s+({'|'.join(map(re.escape, _LONGEST_FIRST))})"
+    r"(?![\w/^]|\s+(?:per|squared|cubed|times)\b)",
+    re.IGNORECASE,
 )
 
 

@@ -108,9 +108,9 @@ class _Builder:
         self._declarations[name] = ast.Struct(item.span, Name(word, name), ())  # claim the name
         fields = self._fields(item.items, name)
         # The struct is where the list begins: the name is that of the field.
-        start = item.span.subspan(item.span.start, item.span.start + 1)
+        start = item.span.subspan(item.span.start, item.span.start)
         self._declarations[name] = ast.Struct(item.span, Name(start, name), fields, item.doc)
-        type_ = QualifiedName(word, Name(start, name))
+        type_ = QualifiedName(start.cover(word), Name(start, name))
         array = ast.Array(item.repeat) if item.repeat else None
         return ast.Field(item.span, type_, Name(word, word.text), None, None, item.doc, array)
 
