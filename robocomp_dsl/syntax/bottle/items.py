@@ -63,6 +63,9 @@ class _Reader:
         else:
             for item in self._open[:1]:
                 self._report(item.span, "this list has no `)`", "")
+        size = len(source.text)
+        for item in self._open:
+            item.span = item.span.cover(source.span(size, size))
         if not self._top:
             self._head += self._above
         return self._top, "\n".join(self._head).strip()
