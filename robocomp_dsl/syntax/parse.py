@@ -15,6 +15,7 @@ from robocomp_dsl.syntax.definitions import BOTTLE_SUFFIX, THRIFT_SUFFIX
 from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
 if TYPE_CHECKING:
+    from robocomp_dsl.syntax.ast import bdsl as ast_bdsl
     from robocomp_dsl.syntax.ast import cdsl as ast_cdsl
     from robocomp_dsl.syntax.ast import ddsl as ast_ddsl
     from robocomp_dsl.syntax.ast import idsl as ast_idsl
@@ -23,7 +24,12 @@ if TYPE_CHECKING:
     from robocomp_dsl.syntax.ast import smdsl as ast_smdsl
 
     AnyFile: TypeAlias = (
-        ast_idsl.File | ast_cdsl.File | ast_pdsl.File | ast_ddsl.File | ast_smdsl.File
+        ast_idsl.File
+        | ast_cdsl.File
+        | ast_pdsl.File
+        | ast_ddsl.File
+        | ast_smdsl.File
+        | ast_bdsl.File
     )
 
 
@@ -83,6 +89,13 @@ def parse_smdsl(source: Source, report: Report) -> ast_smdsl.File:
     return smdsl.parse(source, report)
 
 
+def parse_bdsl(source: Source, report: Report) -> ast_bdsl.File:
+    """The tree of a bridge."""
+    from robocomp_dsl.syntax.languages import bdsl  # noqa: PLC0415 - loaded on first use
+
+    return bdsl.parse(source, report)
+
+
 def parse_innermodel(source: Source, report: Report) -> ast_innermodel.File:
     """The tree of an InnerModel file (XML)."""
     from robocomp_dsl.syntax.xml import innermodel  # noqa: PLC0415 - loaded on first use
@@ -97,12 +110,20 @@ def parse_scxml(source: Source, report: Report) -> ast_innermodel.File:
     return innermodel.parse_scxml(source, report)
 
 
+def parse_xml(source: Source, report: Report) -> ast_innermodel.File:
+    """The tree of an XML file of another project, including text content."""
+    from robocomp_dsl.syntax.xml import innermodel  # noqa: PLC0415 - loaded on first use
+
+    return innermodel.parse_xml(source, report)
+
+
 LANGUAGES: Mapping[str, Callable[[Source, Report], AnyFile]] = {
     ".idsl": parse_idsl,
     ".cdsl": parse_cdsl,
     ".pdsl": parse_pdsl,
     ".ddsl": parse_ddsl,
     ".smdsl": parse_smdsl,
+    ".bdsl": parse_bdsl,
 }
 """File suffix (lower case) to parser."""
 
