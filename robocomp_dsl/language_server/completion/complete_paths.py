@@ -36,11 +36,11 @@ def _imports(session: Session, context: CompletionContext) -> Iterator[str]:
         known = session.workspace.import_resolver.importable_files(context.path)
         yield from (name for name in known if name != context.path.name)
         resolver = session.workspace.import_resolver
-        is_idsl = context.path.suffix.lower() == ".idsl"
-        if is_idsl:
+        is_component = context.path.suffix.lower() == ".cdsl"
+        if not is_component:
             yield from resolver.ros.importable(context.path, context.path)
         for name in resolver.yarp.importable(context.path, context.path):
-            if is_idsl or not declares_types_only(name):
+            if not (is_component and declares_types_only(name)):
                 yield name
         return
     yield from _files_in_folder(session, context, (".cdsl",))
