@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import StrEnum
 from pathlib import Path
 
-from robocomp_dsl.model.types import Alias, Declaration, ExceptionType, Struct, Type
+from robocomp_dsl.model.types import Alias, Declaration, ExceptionType, Literal, Struct, Type
 from robocomp_dsl.record import Record
 from robocomp_dsl.source import Span
 
@@ -25,12 +25,13 @@ class Pattern(StrEnum):
 
 
 class Param(Record):
-    """A parameter of an operation."""
+    """A parameter of an operation. Only arguments of a Thrift service have a `default`."""
 
     name: str
     type: Type
     span: Span
     unit: str = ""
+    default: Literal | None = None
 
 
 class Operation(Record):
@@ -49,6 +50,14 @@ class Operation(Record):
     idempotent: bool
     marked: bool
     doc: str = ""
+
+    @property
+    def optional_inputs(self) -> tuple[Param, ...]:
+        """The last inputs that all have a default: callers may leave them out."""
+        count = 0
+        while count < len(self.inputs) and self.inputs[-1 - count].default is not None:
+            count += 1
+        return self.inputs[len(self.inputs) - count :]
 
     @property
     def ros_service(self) -> str:

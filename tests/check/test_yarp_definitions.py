@@ -111,6 +111,7 @@ def test_service_becomes_an_interface_of_style_thrift(motor: Module) -> None:
         ("angle", types.DOUBLE, "deg"),
         ("speed", types.DOUBLE, ""),  # a typedef of the included file
     ]
+    assert [(p.name, p.default) for p in move.optional_inputs] == [("speed", 10.0)]
 
 
 def test_interface_of_idsl_has_no_style(tmp_path: Path, workspace: Workspace) -> None:

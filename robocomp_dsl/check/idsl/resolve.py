@@ -268,7 +268,9 @@ class _Resolver:
         type_ = self._names.data(tree.type)
         if type_ is None:
             return None
-        return model.Param(tree.name.text, type_, tree.name.span, self._unit(tree.unit, type_))
+        default = self._literal(tree.default, type_, f"the default of `{tree.name.text}`")
+        unit = self._unit(tree.unit, type_)
+        return model.Param(tree.name.text, type_, tree.name.span, unit, default)
 
     def _unit(self, tree: Unit | None, type_: types.Type) -> str:
         """The unit; the comment of an imported definition may mention one of something else."""

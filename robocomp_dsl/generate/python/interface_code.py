@@ -32,6 +32,7 @@ class OperationCode(ValueRecord):
     outputs: str
     throws: str
     idempotent: str
+    input_defaults: str
 
 
 class InterfaceCode(ValueRecord):
@@ -82,7 +83,17 @@ def _operation(operation: Operation, types: PythonTypes) -> OperationCode:
         _fields(operation.outputs, types),
         f"({', '.join(throws)}{',' if len(throws) == 1 else ''})" if throws else "",
         "True" if operation.idempotent else "",
+        _defaults(operation, types),
     )
+
+
+def _defaults(operation: Operation, types: PythonTypes) -> str:
+    """`{"name": value}` of the inputs that a caller may leave out, or an empty string."""
+    rows = [
+        f"{literals.quoted(p.name)}: {types.zero(p.type, p.default).text}"
+        for p in operation.optional_inputs
+    ]
+    return f"{{{', '.join(rows)}}}" if rows else ""
 
 
 def _fields(parameters: Iterable[Param], types: PythonTypes) -> str:

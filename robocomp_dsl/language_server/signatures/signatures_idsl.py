@@ -19,7 +19,7 @@ def type_name(type_: types.Type | None) -> str:
 
 def format_operation(operation: Operation) -> str:
     """An operation with its pattern, explicit or inferred."""
-    inputs = [_typed(p.type, p.name, p.unit) for p in operation.inputs]
+    inputs = [_typed(p.type, p.name, p.unit) + _default(p) for p in operation.inputs]
     outputs = [f"out {_typed(p.type, p.name, p.unit)}" for p in operation.outputs]
     exceptions = ", ".join(exception.qualified for exception in operation.throws)
     throws = f" throws {exceptions}" if exceptions else ""
@@ -94,8 +94,8 @@ def _fields(fields: Sequence[types.Field]) -> list[str]:
     return [_typed(field.type, field.name, field.unit) + _default(field) + ";" for field in fields]
 
 
-def _default(field: types.Field) -> str:
-    if field.items:
+def _default(field: types.Field | Param) -> str:
+    if isinstance(field, types.Field) and field.items:
         return f" = [{', '.join(map(_shown, field.items))}]"
     return "" if field.default is None else f" = {_shown(field.default)}"
 

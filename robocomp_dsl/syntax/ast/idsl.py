@@ -112,13 +112,14 @@ class Param(Node):
     """A parameter of an operation.
 
     A parameter without a name (legacy syntax) is called `arg1`, `arg2`, … by its position; the span
-    of its name is that of the type.
+    of its name is that of the type. Only arguments of a Thrift service have defaults.
     """
 
     type: QualifiedName
     name: Name
     out: bool = False
     unit: Unit | None = None
+    default: Literal | None = None
 
 
 class Operation(Node):

@@ -176,4 +176,4 @@ class MemberReader:
         unit = field.unit
         if unit is None and (text := unit_in(doc.strip())[0]):
             unit = Unit(field.name.span, text)
-        return ast.Param(field.span, field.type, field.name, unit=unit)
+        return ast.Param(field.span, field.type, field.name, unit=unit, default=field.default)

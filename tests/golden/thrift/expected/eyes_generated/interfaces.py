@@ -105,6 +105,7 @@ MOTOR = rt.Interface(
         inputs={"angle": rt.Double, "speed": rt.Double},
         returns=rt.Bool,
         throws=(Blocked,),
+        defaults={"speed": 10.0},
     ),
     rt.Operation(
         "follow",
@@ -128,7 +129,7 @@ class MotorProxy(rt.Proxy):
         """The version of the firmware."""
         return self._call("get_version")
 
-    def move_to(self, angle: float, speed: float) -> bool:
+    def move_to(self, angle: float, speed: float = 10.0) -> bool:
         """Moves the joint.
         @param angle the target [deg]
         @return whether it is within the limits
