@@ -14,7 +14,10 @@ from robocomp_dsl.model.interface import Interface, Operation
 def with_inherited(
     base: Interface, own: tuple[Operation, ...], report: Report
 ) -> tuple[Operation, ...]:
-    """The operations of `base`, then those of `own` that it does not have."""
+    """Copies of the operations of `base`, then those of `own` that it does not have.
+
+    Each operation belongs to one interface: generated names depend on both.
+    """
     inherited = {operation.name: operation for operation in base.operations}
     for operation in own:
         earlier = inherited.get(operation.name)
@@ -26,4 +29,5 @@ def with_inherited(
                 notes=[Note(earlier.span, "it is declared here")],
                 help="give one of them another name",
             )
-    return (*base.operations, *(o for o in own if o.name not in inherited))
+    copies = (operation.replace() for operation in base.operations)
+    return (*copies, *(o for o in own if o.name not in inherited))
