@@ -83,13 +83,16 @@ class ControlServer:
         time: Callable[[], SimulatedTime | None],
         handle_request: RequestHandler,
         connections: Callable[[], Sequence[ConnectionStatus]] = tuple,
+        programs: Sequence[str] = (),
     ) -> None:
+        """`connections` are those between external programs; `programs` are no components."""
         self._journal = journal
         self._statuses = statuses
         self._stop = stop
         self._time = time
         self._handle_request = handle_request
         self._external_connections = connections
+        self._programs = list(programs)
         self._outcome: asyncio.Future[dict[str, Any]] | None = None
         self._connections: set[asyncio.Task[None]] = set()
 
@@ -132,7 +135,8 @@ class ControlServer:
                 clock = time.as_dict() if time else None
                 rows = [process.as_dict() for process in statuses]
                 links = [connection.as_dict() for connection in self._external_connections()]
-                await _send(writer, {"rows": rows, "clock": clock, "connections": links})
+                reply = {"rows": rows, "clock": clock, "connections": links}
+                await _send(writer, reply | {"programs": self._programs})
             case "logs":
                 await self._logs(request, reader, writer)
             case "start" | "stop" | "restart" as verb if verb != "stop" or "components" in request:

@@ -118,6 +118,7 @@ async def _run(
         supervisor.simulated_time,
         requests.handle,
         supervisor.external_connections.statuses,
+        [process.name for process in plan.processes if process.is_program],
     )
     await server.open(lock.folder / instances.SOCKET)
     path = str(plan.path.resolve())

@@ -33,7 +33,7 @@ ENDS = "<from>/a:o</from><to>/b:i</to>"
         (module(""), 'executable "viewer";'),
         (module("<parameters> --x 1  --y 2 </parameters>"), 'executable "viewer --x 1 --y 2";'),
         (
-            module('<parameters>--data "(a b)" --t \'x\'</parameters>'),
+            module("<parameters>--data \"(a b)\" --t 'x'</parameters>"),
             "executable \"viewer --data '(a b)' --t ''\\\"'\\\"'x'\\\"'\\\"''\";",
         ),
         (module("<deployer>yarpdev</deployer>"), 'executable "yarpdev --device viewer";'),
