@@ -62,11 +62,16 @@ class MigrationPlan:
 
 
 def plan_migration(
-    inputs: Sequence[Path], out: Path, folders: Sequence[Path], report: Report
+    inputs: Sequence[Path],
+    out: Path,
+    folders: Sequence[Path],
+    report: Report,
+    tags: Sequence[str] = (),
 ) -> MigrationPlan:
-    """Plan the migration of component folders and manager files.
+    """Plan the migration of component folders, manager files and files of YARP.
 
     A single component folder is migrated to `out` itself, several to one folder each below it.
+    `tags` enable optional parts of robots of YARP.
     """
     files = [path for path in inputs if not path.is_dir()]
     yarp_files = [path for path in files if is_yarp_file(path)]
@@ -90,7 +95,7 @@ def plan_migration(
             plan.name = moved.name
     nodes = [node for _, file_nodes in read for node in file_nodes]
     _add_deployment(plan, managers, nodes, out, folders, report)
-    _add_yarp_files(plan, yarp_files, out, report)
+    _add_yarp_files(plan, yarp_files, out, tags, report)
     for place, moved in plan.components:
         before = f"{place}/" if place else ""
         for file in moved.files:
@@ -102,12 +107,14 @@ def plan_migration(
     return plan
 
 
-def _add_yarp_files(plan: MigrationPlan, paths: Sequence[Path], out: Path, report: Report) -> None:
+def _add_yarp_files(
+    plan: MigrationPlan, paths: Sequence[Path], out: Path, tags: Sequence[str], report: Report
+) -> None:
     """Add the deployments of files of yarpmanager and yarprobotinterface."""
     if not paths:
         return
     taken = [deployment.removesuffix(".ddsl") for deployment in plan.deployments]
-    yarp = plan_yarp_files(paths, out, taken, report)
+    yarp = plan_yarp_files(paths, out, report, tags=tags, taken=taken)
     plan.files += yarp.files
     plan.converted_files += yarp.converted_files
     plan.deployments += yarp.deployments

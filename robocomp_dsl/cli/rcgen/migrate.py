@@ -38,6 +38,13 @@ if TYPE_CHECKING:
     metavar="DIR",
     help="Output folder, new or empty; default: the first name with `-migrated` appended.",
 )
+@click.option(
+    "--enable",
+    "tags",
+    multiple=True,
+    metavar="TAG",
+    help="Include the parts of a YARP robot that are `enabled_by` TAG, or `all`; repeatable.",
+)
 @click.option("-q", "quiet", is_flag=True, help="Print findings only.")
 @options.output_format
 @options.folders
@@ -45,6 +52,7 @@ def command(
     *,
     inputs: tuple[Path, ...],
     output: Path | None,
+    tags: tuple[str, ...],
     quiet: bool,
     output_format: str,
     folders: tuple[Path, ...],
@@ -60,7 +68,7 @@ def command(
     """
     out = output or _default_output(inputs[0])
     _validate_output(inputs, out)
-    _migrate(inputs, out, folders, output_format, quiet)
+    _migrate(inputs, out, folders, tags, output_format, quiet)
 
 
 def _default_output(first: Path) -> Path:
@@ -82,7 +90,12 @@ def _validate_output(inputs: tuple[Path, ...], out: Path) -> None:
 
 
 def _migrate(
-    inputs: tuple[Path, ...], out: Path, folders: tuple[Path, ...], output_format: str, quiet: bool
+    inputs: tuple[Path, ...],
+    out: Path,
+    folders: tuple[Path, ...],
+    tags: tuple[str, ...],
+    output_format: str,
+    quiet: bool,
 ) -> None:
     from robocomp_dsl.generate.write import CannotWrite, write  # noqa: PLC0415 - not for --help
     from robocomp_dsl.migrate.finish import (  # noqa: PLC0415
@@ -94,7 +107,7 @@ def _migrate(
 
     report = Report()
     try:
-        plan = plan_migration(inputs, out, folders, report)
+        plan = plan_migration(inputs, out, folders, report, tags)
         if plan.files:
             write(out, plan.files)
             for place, files in generate_components(plan, out, folders, report):
