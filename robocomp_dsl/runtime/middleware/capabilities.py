@@ -57,7 +57,8 @@ class MiddlewareDescription:
     be opened, and `install` tells how to install them. `configuration` is a function, as
     `module:function`, that adds the connections of RoboComp's configuration keys to the settings of
     a component; see `middleware.configured`. `tcp_ports` is a function, as `module:function`, from
-    the address of an own port to the TCP ports of this machine where it listens.
+    the address of an own port to the TCP ports of this machine where it listens. `address_problem`
+    is a function, as `module:function`, from an address to what is wrong with it, "" for nothing.
     """
 
     name: str
@@ -68,3 +69,4 @@ class MiddlewareDescription:
     install: str = ""
     configuration: str = ""
     tcp_ports: str = ""
+    address_problem: str = ""

@@ -17,4 +17,5 @@ MIDDLEWARE = MiddlewareDescription(
         max_message_bytes=MAX_MESSAGE_BYTES,
     ),
     opener="robocomp_dsl.runtime.middleware.yarp.transport:open_transport",
+    address_problem="robocomp_dsl.runtime.middleware.yarp.valid_addresses:address_problem",
 )
