@@ -10,6 +10,7 @@ from typing import NoReturn
 from robocomp_dsl.check.bdsl.context import BridgeContext
 from robocomp_dsl.check.bdsl.items import same_type
 from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.diagnostics import Edit, Fix, nearest
@@ -108,7 +109,7 @@ def _fit_constant(
     low = 0 if type_.is_unsigned else -(1 << (type_.bits - 1))
     high = (1 << (type_.bits - (0 if type_.is_unsigned else 1))) - 1
     if not low <= written <= high:
-        message = f"{target.name} is a `{type_.name}`: {value.span.text} is outside {low} to {high}"
+        message = f"{target.name} is {a_type(type_)}: {value.span.text} is outside {low} to {high}"
         context.fail(codes.VALUE_TYPE, value.span, message)
     return value.replace(type=type_, value=int(written))
 
@@ -121,17 +122,8 @@ def reject(
     fix: Fix | None = None,
 ) -> NoReturn:
     """Report a value whose type does not fit. Raises `FaultyExpression`."""
-    message = f"{target.name} is a `{type_text(target.type)}`, not a `{type_text(value.type)}`"
+    message = f"{target.name} is {a_type(target.type)}, not {a_type(value.type)}"
     context.fail(codes.VALUE_TYPE, value.span, message, help_, fix)
-
-
-def type_text(type_: ValueType) -> str:
-    """A type as users write it."""
-    element = getattr(type_, "element", None)
-    if element is None:
-        return getattr(type_, "qualified", type_.name)
-    size = getattr(type_, "size", 0)
-    return f"{type_text(element)}[{size or ''}]"
 
 
 def _advice(value: Expression, target: Primitive) -> tuple[str, Fix | None]:

@@ -15,11 +15,11 @@ from robocomp_dsl.check.bdsl.fit_numbers import (
     is_rounded,
     number_fits,
     reject,
-    type_text,
 )
 from robocomp_dsl.check.bdsl.fit_times import fit_time, is_ros_time
 from robocomp_dsl.check.bdsl.items import groups_of, item_at, items_of, same_type
 from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.type_words import a_type, type_text
 from robocomp_dsl.check.bdsl.units import convert
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.check.literals import join_names
@@ -61,7 +61,9 @@ def _fit_scalar(value: Expression, target: Target, context: BridgeContext) -> Ex
         return fit(item, target, context)
     if isinstance(value.type, Struct):
         reject(value, target, context, *_field_advice(value, value.type, target))
-    return fit_scalar(convert(value, target.unit, target.name, context), target, context)
+    if target.type in NUMBERS and value.type in NUMBERS:
+        value = convert(value, target.unit, target.name, context)
+    return fit_scalar(value, target, context)
 
 
 def _reject_list(value: Expression, target: Target, context: BridgeContext) -> NoReturn:
@@ -72,7 +74,7 @@ def _reject_list(value: Expression, target: Target, context: BridgeContext) -> N
     context.fail(
         codes.VALUE_TYPE,
         value.span,
-        f"{target.name} is a `{type_text(target.type)}`, not {count}",
+        f"{target.name} is {a_type(target.type)}, not {count}",
         f"select an item: `{text}[0]`" if is_simple else f"select an item: `({text})[0]`",
         Fix("append `[0]`", (Edit(end, "[0]"),)) if is_simple else None,
     )

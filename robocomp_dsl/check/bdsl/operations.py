@@ -126,7 +126,7 @@ def _has_no_list(ref: ast.TypeRef, context: BridgeContext) -> bool:
 
 
 def _fits_kind(kind: PortKind, operation: Operation, name: Name, context: BridgeContext) -> bool:
-    returns = bool(operation.result or operation.outputs or operation.throws)
+    returns = bool(operation.result or operation.outputs)
     if kind.topic is not None and returns:
         help_ = "one that returns something is the type of a `service`, or of a `call` in a service"
         message = f"`{operation.name}` returns something: {kind.word}s have one-way operations"

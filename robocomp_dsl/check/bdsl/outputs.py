@@ -109,7 +109,7 @@ def _check_trigger(
         context.report.add(
             codes.BRIDGE_TRIGGER,
             tree.name.span,
-            f"`{tree.name.text}` is never sent: it reads no input, and has no rate",
+            f"`{tree.name.text}` is never sent: it has no rate, and reads no message",
             help="write such as `rate 10 Hz;` in its braces",
         )
 

@@ -20,6 +20,7 @@ MIDDLEWARE = MiddlewareDescription(
         valid_names=VALID_NAMES,
     ),
     opener="robocomp_dsl.runtime.middleware.ros1.transport:open_transport",
+    address_problem="robocomp_dsl.runtime.middleware.ros_common.valid_names:address_problem",
     requires=("rosbags",),
     install="run: pip install 'robocomp_dsl[ros]'",
 )
