@@ -174,7 +174,9 @@ class Silent(Recorder):
 
         self.free = threading.Event()
 
-    def receive(self, bottle: Bottle, size: int, *, wants_reply: bool) -> Bottle | None:
+    def receive(
+        self, bottle: Bottle, size: int, envelope: str, *, wants_reply: bool
+    ) -> Bottle | None:
         self.free.wait(LIMIT_S)
         return []
 

@@ -63,11 +63,14 @@ def _set_up(stream: Stream, carrier: str, sender: str) -> None:
         raise ConnectionLost("the peer is no port of YARP, or accepts no tcp")
 
 
-def message_bytes(carrier: str, bottle: Bottle, binary: bytes, command: str) -> bytes:
+def message_bytes(
+    carrier: str, bottle: Bottle, binary: bytes, command: str, envelope: str = ""
+) -> bytes:
     """One message for a carrier; `binary` are the bytes of the Bottle."""
     if carrier in _WORDS:
-        return f"{command}\r\n{write_text(bottle)}\r\n".encode(errors="surrogateescape")
-    return wire.frame(binary, command)
+        head = f"{command} {envelope}" if envelope else command
+        return f"{head}\r\n{write_text(bottle)}\r\n".encode(errors="surrogateescape")
+    return wire.frame(binary, command, envelope)
 
 
 def end_bytes(carrier: str) -> bytes:

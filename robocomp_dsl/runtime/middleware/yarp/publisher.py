@@ -7,6 +7,7 @@ Readers are subscribed ports of components, programs that the user names, and th
 from __future__ import annotations
 
 import threading
+from itertools import count
 from typing import Any
 
 from robocomp_dsl.runtime.codec.bottle import messages
@@ -16,11 +17,13 @@ from robocomp_dsl.runtime.codec.bottle.values import Bottle
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.message_stamp import published_stamp
 from robocomp_dsl.runtime.errors import EncodeError
 from robocomp_dsl.runtime.middleware.transport import BoundOperation
 from robocomp_dsl.runtime.middleware.yarp import outgoing
 from robocomp_dsl.runtime.middleware.yarp.addresses import CARRIERS, PortAddress, parse_address
 from robocomp_dsl.runtime.middleware.yarp.description import MAX_MESSAGE_BYTES
+from robocomp_dsl.runtime.middleware.yarp.envelopes import write_envelope
 from robocomp_dsl.runtime.middleware.yarp.outgoing import Resolve
 from robocomp_dsl.runtime.middleware.yarp.output_link import CONNECT_S, OutputLink
 from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost
@@ -115,6 +118,7 @@ class YarpPublisher:
         self._links = links
         self._close_port = close
         self._profile = profile
+        self._numbers = count()
         self._plain = messages.is_plain_topic(at.interface)
         self._attached: dict[PortRecord, str] = {}
         for record in at.external:
@@ -126,23 +130,27 @@ class YarpPublisher:
         links, profile = self._links, self._profile
         encoder = messages.plain_encoder if self._plain else messages.request_encoder
         convert = encoder(operation)
+        stamp_of, numbers = published_stamp(operation), self._numbers
 
-        def encode(arguments: tuple[Any, ...]) -> tuple[Bottle, bytes]:
+        def encode(arguments: tuple[Any, ...]) -> tuple[Bottle, bytes, str]:
             bottle = convert(arguments)
             data = write_binary(bottle, profile)
             if len(data) > MAX_MESSAGE_BYTES:
                 raise EncodeError(f"a message has at most {MAX_MESSAGE_BYTES} bytes")
-            return bottle, data
+            stamp = stamp_of(arguments)
+            envelope = write_envelope(stamp, next(numbers)) if stamp else ""
+            return bottle, data, envelope
 
-        def send(payload: tuple[Bottle, bytes], _number: bytes) -> None:
+        def send(payload: tuple[Bottle, bytes, str], _number: bytes) -> None:
+            bottle, data, envelope = payload
             frames: dict[bool, bytes] = {}
             for link in links.links.values():
                 carrier = link.address.carrier
                 is_text = carrier.startswith("text")
                 if is_text not in frames:
-                    frames[is_text] = outgoing.message_bytes(carrier, *payload, "D")
+                    frames[is_text] = outgoing.message_bytes(carrier, bottle, data, "D", envelope)
                 link.send(frames[is_text], counts)
-            counts.bytes_out += len(payload[1])
+            counts.bytes_out += len(data)
 
         return BoundOperation(encode, send)
 

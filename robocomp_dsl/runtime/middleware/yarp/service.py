@@ -6,7 +6,9 @@ their connection; commands and publications are queued, in order.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
+from functools import partial
 from typing import Any, TypeAlias
 
 from robocomp_dsl.runtime.codec.bottle import messages
@@ -14,10 +16,12 @@ from robocomp_dsl.runtime.codec.bottle.values import Bottle, Vocab, vocab
 from robocomp_dsl.runtime.component.interface import Pattern
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 from robocomp_dsl.runtime.connection.message_queue import MessageQueue
+from robocomp_dsl.runtime.connection.message_stamp import handle_with_stamp
 from robocomp_dsl.runtime.errors import EncodeError, InterfaceMismatch, MalformedMessage
+from robocomp_dsl.runtime.middleware.yarp.envelopes import read_envelope
 
-Handler: TypeAlias = "Callable[[Bottle, int], Bottle | None]"
-"""From the items behind the name and the size of the message to the reply."""
+Handler: TypeAlias = "Callable[[Bottle, int, str], Bottle | None]"
+"""From the items behind the name, and size and envelope of the message, to the reply."""
 
 
 class OperationReceiver:
@@ -42,18 +46,20 @@ class OperationReceiver:
             return _queued(served, self.queue, plain=self._plain)
         return _answered(served)
 
-    def receive(self, bottle: Bottle, size: int, *, wants_reply: bool) -> Bottle | None:
+    def receive(
+        self, bottle: Bottle, size: int, envelope: str, *, wants_reply: bool
+    ) -> Bottle | None:
         """See `port.Receiver`."""
         del wants_reply
         if self._plain and self._only:
-            return self._only(bottle, size)
+            return self._only(bottle, size, envelope)
         first = bottle[0] if len(bottle) else ""
         name = first.text if isinstance(first, Vocab) else first
         handler = self._handlers.get(name) if isinstance(name, str) else None
         if handler:
-            return handler(bottle[1:], size)
+            return handler(bottle[1:], size, envelope)
         if self._only:
-            return self._only(bottle, size)  # a program that knows no names of operations
+            return self._only(bottle, size, envelope)  # a program that knows no names of operations
         if self._is_service and name == "help":
             return self._help()
         return self._unknown(name)
@@ -101,7 +107,7 @@ def _answered(served: IncomingOperation) -> Handler:
     operation, counts, handle = served.operation, served.counts, served.handle
     decode, encode = messages.request_decoder(operation), messages.reply_encoder(operation)
 
-    def answer(items: Bottle, size: int) -> Bottle:
+    def answer(items: Bottle, size: int, _envelope: str) -> Bottle:
         counts.bytes_in += size
         try:
             return encode(handle(decode(items)))
@@ -116,14 +122,15 @@ def _queued(served: IncomingOperation, queue: MessageQueue, *, plain: bool) -> H
     operation, counts, handle, put = served.operation, served.counts, served.handle, queue.put
     decode = messages.plain_decoder(operation) if plain else messages.request_decoder(operation)
 
-    def receive(items: Bottle, size: int) -> Bottle | None:
+    def receive(items: Bottle, size: int, envelope: str) -> Bottle | None:
+        stamp = read_envelope(envelope, time.time_ns())
         counts.bytes_in += size
         try:
             arguments = decode(items)
         except MalformedMessage as error:
             served.report(error)
             return messages.encode_failure(operation, error)
-        put(served, handle, arguments)
+        put(served, partial(handle_with_stamp, handle, stamp), arguments)
         return None
 
     return receive
