@@ -7,6 +7,7 @@ struct an object of its generated class, an instant an int [ns].
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from enum import StrEnum
 
 from robocomp_dsl.model.bridge_ports import (
@@ -38,6 +39,21 @@ class Expression(Record):
     def is_list(self) -> bool:
         """Whether it has items: a sequence, a hub, or `{ a, b }`."""
         return isinstance(self.type, (ItemsType, Sequence))
+
+    def children(self) -> tuple[Expression, ...]:
+        """The expressions that it consists of, in order."""
+        children: list[Expression] = []
+        for name in type(self).__match_args__:
+            value = getattr(self, name)
+            parts = value if isinstance(value, tuple) else (value,)
+            children += [part for part in parts if isinstance(part, Expression)]
+        return tuple(children)
+
+    def walk(self) -> Iterator[Expression]:
+        """The expression and all expressions in it; those of a hub are not in it."""
+        yield self
+        for child in self.children():
+            yield from child.walk()
 
 
 class ConstantValue(Expression):
@@ -236,8 +252,10 @@ class HubPolicy(StrEnum):
 class BridgeHub(Record):
     """Concatenates its values. `inputs` are those it receives from, in order of first use.
 
-    `tolerance_s` is set for `synchronised` only. `max_age_s` 0: any age. `length` 0: that of the
-    policy (10 messages in each queue).
+    A scalar is appended, a sequence or list is joined item by item (the items of a `ListExpression`
+    are not joined: a struct is a list of its fields). `tolerance_s` is set for `synchronised` only.
+    `max_age_s` 0: any age. `length`: the declared number of items, which is checked at run time;
+    None: not declared, or already known.
     """
 
     name: str
@@ -248,7 +266,7 @@ class BridgeHub(Record):
     span: Span
     tolerance_s: float = 0.0
     max_age_s: float = 0.0
-    length: int = 0
+    length: int | None = None
     doc: str = ""
 
 

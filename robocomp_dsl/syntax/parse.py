@@ -13,6 +13,7 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.source import Source
 
 if TYPE_CHECKING:
+    from robocomp_dsl.syntax.ast import bdsl as ast_bdsl
     from robocomp_dsl.syntax.ast import cdsl as ast_cdsl
     from robocomp_dsl.syntax.ast import ddsl as ast_ddsl
     from robocomp_dsl.syntax.ast import idsl as ast_idsl
@@ -21,7 +22,12 @@ if TYPE_CHECKING:
     from robocomp_dsl.syntax.ast import smdsl as ast_smdsl
 
     AnyFile: TypeAlias = (
-        ast_idsl.File | ast_cdsl.File | ast_pdsl.File | ast_ddsl.File | ast_smdsl.File
+        ast_idsl.File
+        | ast_cdsl.File
+        | ast_pdsl.File
+        | ast_ddsl.File
+        | ast_smdsl.File
+        | ast_bdsl.File
     )
 
 
@@ -67,6 +73,13 @@ def parse_smdsl(source: Source, report: Report) -> ast_smdsl.File:
     return smdsl.parse(source, report)
 
 
+def parse_bdsl(source: Source, report: Report) -> ast_bdsl.File:
+    """The tree of a bridge."""
+    from robocomp_dsl.syntax.languages import bdsl  # noqa: PLC0415 - loaded on first use
+
+    return bdsl.parse(source, report)
+
+
 def parse_innermodel(source: Source, report: Report) -> ast_innermodel.File:
     """The tree of an InnerModel file (XML)."""
     from robocomp_dsl.syntax.xml import innermodel  # noqa: PLC0415 - loaded on first use
@@ -87,5 +100,6 @@ LANGUAGES: Mapping[str, Callable[[Source, Report], AnyFile]] = {
     ".pdsl": parse_pdsl,
     ".ddsl": parse_ddsl,
     ".smdsl": parse_smdsl,
+    ".bdsl": parse_bdsl,
 }
 """File suffix (lower case) to parser."""
