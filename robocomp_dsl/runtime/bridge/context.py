@@ -12,29 +12,28 @@ NANOSECONDS = 1_000_000_000
 
 
 class MessageContext:
-    """The instant and the number of one message.
+    """The instant and the number of one message, and the field that is being assigned.
 
     `now_ns` is the same for all uses in the message, in ns since the epoch, or of simulated time.
-    `counter` is the number of messages that this output has sent, from 0.
+    `counter` is the number of messages that this output has sent, from 0. `field` is the path of
+    the field or the name of the hub that is being computed, for messages about errors.
     """
 
-    __slots__ = ("_inputs", "counter", "now_ns")
+    __slots__ = ("_inputs", "counter", "field", "now_ns")
 
     def __init__(self, inputs: Mapping[str, BridgedInput]) -> None:
         self._inputs = inputs
         self.now_ns = 0
         self.counter = 0
+        self.field = ""
 
-    @property
-    def now(self) -> float:
-        """The instant in s."""
-        return self.now_ns / NANOSECONDS
-
-    def stamp(self, name: str) -> float:
-        """The time stamp of the newest message of an input, in s."""
-        newest = self._inputs[name].newest
-        return newest.stamp if newest else 0.0
+    def begin(self, now_ns: int, counter: int) -> None:
+        """Begin a message."""
+        self.now_ns = now_ns
+        self.counter = counter
+        self.field = ""
 
     def stamp_ns(self, name: str) -> int:
         """The time stamp of the newest message of an input, in ns."""
-        return round(self.stamp(name) * NANOSECONDS)
+        newest = self._inputs[name].newest
+        return newest.stamp_ns if newest else 0

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import logging
 from collections import Counter
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from robocomp_dsl.runtime.component.statistics import OperationCounts
@@ -54,34 +53,36 @@ class BridgeCounts:
 
 
 class LossReport:
-    """Counts and reports the losses of one input or output.
+    """Counts and reports the losses of one input, output or service.
 
     `what` names it in messages, as in ``input `left` ``; `operation` has the counts that
     `rcdeploy stats` shows.
     """
 
-    def __init__(
-        self, what: str, counts: BridgeCounts, operation: OperationCounts, log: logging.Logger
-    ) -> None:
+    def __init__(self, what: str, operation: OperationCounts, log: logging.Logger) -> None:
+        self.counts = BridgeCounts()
         self._what = what
-        self._counts = counts
         self._operation = operation
         self._log = log
         self._throttle = Throttle()
 
-    def lose_input(self, reason: str, place: str) -> None:
+    def lose_input(self, reason: str, place: str, text: str = "") -> None:
         """Count a received message that no output will use."""
         self._operation.drops += 1
-        self._lose(reason, lambda: reason, place)
+        self._report("dropped", reason, text or reason, place)
 
-    def lose_output(self, reason: str, describe: Callable[[], str], place: str) -> None:
-        """Count a message that was not sent; `describe` returns the details for the log."""
+    def lose_output(self, reason: str, text: str, place: str) -> None:
+        """Count a message that was not sent; `text` has the details for the log."""
         self._operation.failures += 1
-        self._lose(reason, describe, place)
+        self._report("not sent", reason, text, place)
 
-    def _lose(self, reason: str, describe: Callable[[], str], place: str) -> None:
-        self._counts.dropped[reason] += 1
+    def lose_reply(self, reason: str, text: str, place: str) -> None:
+        """Count a request that failed; the port counts the failure itself."""
+        self._report("failed", reason, text, place)
+
+    def _report(self, verb: str, reason: str, text: str, place: str) -> None:
+        count = self.counts.dropped[reason] + 1
+        self.counts.dropped[reason] = count
         if self._throttle.allows(reason):
-            count = self._counts.dropped[reason]
             so_far = f"; {count} so far" if count > 1 else ""
-            self._log.warning("%s: dropped: %s (%s)%s", self._what, describe(), place, so_far)
+            self._log.warning("%s: %s: %s (%s)%s", self._what, verb, text, place, so_far)

@@ -4,12 +4,4 @@ from __future__ import annotations
 
 
 class DoesNotFit(ValueError):
-    """A value with the wrong length or range; `path` is the field of the message."""
-
-    def __init__(self, path: str, reason: str) -> None:
-        super().__init__(path, reason)
-        self.path = path
-        self.reason = reason
-
-    def __str__(self) -> str:
-        return f"{self.path}: {self.reason}" if self.path else self.reason
+    """A value with the wrong length or range; the context knows the field of the message."""

@@ -17,7 +17,7 @@ from robocomp_dsl.runtime.bridge.spec import HubSpec
 
 QUEUE_LENGTH = 10
 """Messages that a hub with the policy `all` or `synchronised` holds for each input."""
-JUMP_S = 1.0
+JUMP_NS = 1_000_000_000
 """A time stamp that is so much older than the newest one: the clock of the sender was set back."""
 QUEUE_FULL = "the other inputs of the hub are behind"
 UNMATCHED = "no message of the other inputs has a time stamp within the tolerance"
@@ -26,13 +26,13 @@ SET_BACK = "the time stamps of the input jumped back"
 
 @dataclass(slots=True)
 class ReceivedMessage:
-    """A message of an input: its time stamp in s, and its arrival in s on the component's clock.
+    """A message of an input: its time stamp in ns, and its arrival in s on the component's clock.
 
     `begun_ns` is the arrival on the clock of `time.perf_counter_ns`, for the latency.
     """
 
     value: Any
-    stamp: float
+    stamp_ns: int
     arrival: float
     begun_ns: int
 
@@ -40,7 +40,8 @@ class ReceivedMessage:
 MessageSet: TypeAlias = tuple[ReceivedMessage, ...]
 Drop: TypeAlias = Callable[[int, str], None]
 """Counts a dropped message of the input with this index in the hub, with the reason."""
-_stamp = attrgetter("stamp")
+_stamp = attrgetter("stamp_ns")
+_NANOSECONDS = 1_000_000_000
 
 
 class LatestHub:
@@ -82,6 +83,7 @@ class QueueHub:
         self._drop = drop
         self._queues: list[deque[ReceivedMessage]] = [deque() for _ in spec.inputs]
         self._empty = len(spec.inputs)
+        self._length = spec.length or QUEUE_LENGTH
 
     def missing(self) -> list[str]:
         """The inputs without a waiting message."""
@@ -106,7 +108,7 @@ class AllHub(QueueHub):
     def add(self, index: int, message: ReceivedMessage) -> bool:
         """Take a message of an input; returns whether there is a new set."""
         queue = self._queues[index]
-        if len(queue) == QUEUE_LENGTH:
+        if len(queue) == self._length:
             self._take(index)
             self._drop(index, QUEUE_FULL)
         self._empty -= not queue
@@ -120,39 +122,42 @@ class AllHub(QueueHub):
 class SynchronisedHub(QueueHub):
     """One message of each input whose time stamps differ by the tolerance at most.
 
-    Messages of an input may arrive out of order. A stamp that jumps back by more than `JUMP_S`
+    Messages of an input may arrive out of order. A stamp that jumps back by more than `JUMP_NS`
     discards the newer messages of its input, as after a restart of a simulation.
     """
 
     def __init__(self, spec: HubSpec, drop: Drop) -> None:
         super().__init__(spec, drop)
-        self.tolerance = spec.tolerance
-        self._newest_stamp = [float("-inf")] * len(spec.inputs)
+        self.tolerance_ns = round(spec.tolerance * _NANOSECONDS)
+        self._newest_stamp: list[int | None] = [None] * len(spec.inputs)
+
+    def set_tolerance(self, seconds: float) -> None:
+        """Change the tolerance in s."""
+        self.tolerance_ns = round(seconds * _NANOSECONDS)
 
     def add(self, index: int, message: ReceivedMessage) -> bool:
         """Take a message of an input; returns whether there is a new set."""
-        stamp = message.stamp
-        if stamp != stamp:  # NaN compares with nothing
-            self._drop(index, UNMATCHED)
-            return False
-        if stamp < self._newest_stamp[index] - max(JUMP_S, 10 * self.tolerance):
+        stamp = message.stamp_ns
+        newest = self._newest_stamp[index]
+        if newest is None or stamp > newest:
+            self._newest_stamp[index] = stamp
+        elif stamp < newest - max(JUMP_NS, 10 * self.tolerance_ns):
             self._discard_newer(index, stamp)
             self._newest_stamp[index] = stamp
-        self._newest_stamp[index] = max(stamp, self._newest_stamp[index])
         queue = self._queues[index]
-        if len(queue) == QUEUE_LENGTH:
+        if len(queue) == self._length:
             self._take(index)
             self._drop(index, QUEUE_FULL)
         self._empty -= not queue
-        if not queue or stamp >= queue[-1].stamp:
+        if not queue or stamp >= queue[-1].stamp_ns:
             queue.append(message)
         else:
             insort_right(queue, message, key=_stamp)
         return self._match()
 
-    def _discard_newer(self, index: int, stamp: float) -> None:
+    def _discard_newer(self, index: int, stamp: int) -> None:
         queue = self._queues[index]
-        while queue and queue[-1].stamp > stamp:
+        while queue and queue[-1].stamp_ns > stamp:
             queue.pop()
             self._drop(index, SET_BACK)
             self._empty += not queue
@@ -160,8 +165,8 @@ class SynchronisedHub(QueueHub):
     def _match(self) -> bool:
         """Form a set of the oldest messages that fit; drop older ones that cannot match."""
         while not self._empty:
-            oldest = [queue[0].stamp for queue in self._queues]
-            limit = max(oldest) - self.tolerance
+            oldest = [queue[0].stamp_ns for queue in self._queues]
+            limit = max(oldest) - self.tolerance_ns
             late = [index for index, stamp in enumerate(oldest) if stamp < limit]
             if not late:
                 self._take_set()

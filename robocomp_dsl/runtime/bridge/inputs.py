@@ -6,16 +6,19 @@ from collections.abc import Callable
 from time import perf_counter_ns
 from typing import Any
 
-from robocomp_dsl.runtime.bridge.counts import BridgeCounts
+from robocomp_dsl.runtime.bridge.counts import BridgeCounts, LossReport
+from robocomp_dsl.runtime.bridge.errors import DoesNotFit
 from robocomp_dsl.runtime.bridge.hubs import Hub, ReceivedMessage
 from robocomp_dsl.runtime.bridge.outputs import BridgedOutput
 from robocomp_dsl.runtime.bridge.spec import InputSpec
+
+NOT_FITTING = "the message does not fit its type"
 
 
 class BridgedInput:
     """The input and its newest message.
 
-    `now` is the component's clock in s; `message_stamp` returns the time stamp in s of the message
+    `now` is the component's clock in s; `message_stamp` returns the time stamp in ns of the message
     that is being handled.
     """
 
@@ -23,11 +26,13 @@ class BridgedInput:
         self,
         spec: InputSpec,
         counts: BridgeCounts,
+        losses: LossReport,
         now: Callable[[], float],
-        message_stamp: Callable[[], float],
+        message_stamp: Callable[[], int],
     ) -> None:
         self.spec = spec
         self.counts = counts
+        self.losses = losses
         self.newest: ReceivedMessage | None = None
         self._now = now
         self._stamp = spec.stamp
@@ -40,12 +45,21 @@ class BridgedInput:
         self._hubs.append((hub, index, outputs))
 
     def receive(self, value: Any) -> None:
-        """Take a message, and send the outputs whose inputs are complete now."""
+        """Take a message, and send the outputs whose inputs are complete now.
+
+        The value of an operation with several parameters is the tuple of them.
+        """
         begun = perf_counter_ns()
         self.counts.messages += 1
-        stamp = 0.0
-        if self._needs_stamp:
-            stamp = self._stamp(value) if self._stamp else self._message_stamp()
+        stamp = 0
+        try:
+            if self.spec.check is not None:
+                self.spec.check(value)
+            if self._needs_stamp:
+                stamp = self._stamp(value) if self._stamp else self._message_stamp()
+        except DoesNotFit as error:
+            self.losses.lose_input(NOT_FITTING, self.spec.place, str(error))
+            return
         message = ReceivedMessage(value, stamp, self._now(), begun)
         self.newest = message
         if len(self._hubs) == 1:

@@ -11,17 +11,12 @@ from typing import Any
 
 from robocomp_dsl.runtime.bridge.context import MessageContext
 from robocomp_dsl.runtime.bridge.counts import BridgeCounts, LossReport
-from robocomp_dsl.runtime.bridge.errors import DoesNotFit
+from robocomp_dsl.runtime.bridge.failures import describe_failure
 from robocomp_dsl.runtime.bridge.hubs import Hub, ReceivedMessage, age_of
 from robocomp_dsl.runtime.bridge.spec import OutputSpec
 from robocomp_dsl.runtime.component.statistics import OperationCounts
-from robocomp_dsl.runtime.component.user_errors import describe_error
-from robocomp_dsl.runtime.errors import EncodeError, MiddlewareError
 
 TOO_OLD = "older than max_age"
-NOT_FITTING = "a value does not fit"
-NOT_SENT = "the middleware could not send it"
-FAILED = "building it failed"
 
 
 class BridgedOutput:
@@ -37,14 +32,13 @@ class BridgedOutput:
         publish: Callable[..., None],
         worker: object,
         context: MessageContext,
-        counts: BridgeCounts,
-        operation: OperationCounts,
         losses: LossReport,
+        operation: OperationCounts,
         now: Callable[[], float],
         now_ns: Callable[[], int],
     ) -> None:
         self.spec = spec
-        self.counts = counts
+        self.counts: BridgeCounts = losses.counts
         self.is_scheduled = spec.rate > 0
         self._hubs = tuple(hubs)
         self._publish = publish
@@ -64,7 +58,7 @@ class BridgedOutput:
         """
         if cause is not None and self.is_scheduled:
             return False
-        sets = []
+        sets: list[tuple[Any, ...]] = []
         for hub in self._hubs:
             messages = hub.messages
             if messages is None:
@@ -72,14 +66,14 @@ class BridgedOutput:
             if hub.max_age and age_of(messages, self._now()) > hub.max_age:
                 self._report_age(hub)
                 return False
-            sets.append(messages)
+            sets.append(tuple([message.value for message in messages]))
         context = self._context
-        context.now_ns = self._now_ns()
-        context.counter = self.counts.messages
+        context.begin(self._now_ns(), self.counts.messages)
         try:
             self._publish(*self._build(context, self._worker, *sets))
         except Exception as error:
-            self._report(error)
+            failure = describe_failure(error, context.field, self.spec.places)
+            self._losses.lose_output(failure.reason, failure.text, failure.place)
             return False
         self.counts.messages += 1
         if cause is not None:
@@ -98,29 +92,7 @@ class BridgedOutput:
         oldest = max(ages, key=ages.__getitem__)
         self._losses.lose_output(
             TOO_OLD,
-            lambda: (
-                f"the newest message of `{oldest}` is {ages[oldest]:.3g} s old, max_age of"
-                f" `{hub.spec.name}` is {hub.max_age:g} s"
-            ),
+            f"the newest message of `{oldest}` is {ages[oldest]:.3g} s old, max_age of"
+            f" `{hub.spec.name}` is {hub.max_age:g} s",
             hub.spec.place,
         )
-
-    def _report(self, error: Exception) -> None:
-        if isinstance(error, DoesNotFit | EncodeError):
-            path = error.path
-            self._losses.lose_output(
-                NOT_FITTING, lambda: str(error), self._place(path.removeprefix("message."))
-            )
-        elif isinstance(error, MiddlewareError):
-            self._losses.lose_output(NOT_SENT, lambda: str(error), self._place(""))
-        else:
-            self._losses.lose_output(FAILED, lambda: describe_error(error), self._place(""))
-
-    def _place(self, path: str) -> str:
-        """The place of the assignment of the field `path`, or of a field that contains it."""
-        places = self.spec.places
-        while path and path not in places:
-            path = path[: max(path.rfind("."), path.rfind("["), 0)]
-        return places.get(path, "")
-
-

@@ -20,8 +20,10 @@ def common_period_ms(rates: Mapping[str, float]) -> float:
     if not periods:
         return 0.0
     numerator = math.gcd(
-        *(p.numerator * math.lcm(*(q.denominator for q in periods)) // p.denominator
-          for p in periods)
+        *(
+            p.numerator * math.lcm(*(q.denominator for q in periods)) // p.denominator
+            for p in periods
+        )
     )
     common = Fraction(numerator, math.lcm(*(p.denominator for p in periods)))
     return max(float(common) * 1000, min(MIN_PERIOD_MS, *(float(p) * 1000 for p in periods)))

@@ -16,23 +16,26 @@ Policy: TypeAlias = Literal["latest", "all", "synchronised"]
 class InputSpec:
     """An input: the subscribed port and its operation.
 
-    `stamp` returns the time stamp of a message in s; None: the time stamp of the middleware, else
-    the time of arrival. `needs_stamp`: a synchronised hub or an output uses it.
+    `stamp` returns the time stamp of a message in ns; None: the time stamp of the middleware, else
+    the time of arrival. `needs_stamp`: a synchronised hub or an output uses it. `check` raises
+    `DoesNotFit` for a message that the declared type does not permit.
     """
 
     name: str
     port: str
     operation: str
     place: str
-    stamp: Callable[[Any], float] | None = None
+    stamp: Callable[[Any], int] | None = None
     needs_stamp: bool = False
+    check: Callable[[Any], object] | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class HubSpec:
     """A hub over some inputs. `tolerance` and `max_age` in s; `max_age` 0: no limit.
 
-    `is_implicit`: an output uses the input without a hub.
+    `length` is the number of messages that it holds for each input; 0: `hubs.QUEUE_LENGTH`.
+    `is_passive`: it does not cause outputs to be sent, they only read it.
     """
 
     name: str
@@ -41,15 +44,16 @@ class HubSpec:
     policy: Policy = "latest"
     tolerance: float = 0.0
     max_age: float = 0.0
-    is_implicit: bool = False
+    length: int = 0
+    is_passive: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class OutputSpec:
     """An output: the published port and its operation.
 
-    `build` gets a `MessageContext`, the worker, and for each hub the tuple of its messages; it
-    returns the tuple of arguments to publish. `rate` in Hz, 0: a message whenever a hub is ready
+    `build` gets a `MessageContext`, the worker, and for each hub the tuple of the values of its
+    messages; it returns the tuple of arguments to publish. `rate` in Hz, 0: a message whenever a hub is ready
     anew. `places` has the place of each assigned field by its path, "" is that of the output.
     """
 
@@ -63,6 +67,20 @@ class OutputSpec:
 
 
 @dataclass(frozen=True, slots=True)
+class ServiceSpec:
+    """A served operation. `answer` gets a `MessageContext`, the worker and the arguments.
+
+    `places` are as in `OutputSpec`.
+    """
+
+    name: str
+    port: str
+    operation: str
+    answer: Callable[..., Any]
+    places: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
 class BridgeSpec:
     """All of a bridge; `source` is the file it was generated from."""
 
@@ -70,3 +88,4 @@ class BridgeSpec:
     inputs: tuple[InputSpec, ...] = ()
     hubs: tuple[HubSpec, ...] = ()
     outputs: tuple[OutputSpec, ...] = ()
+    services: tuple[ServiceSpec, ...] = ()

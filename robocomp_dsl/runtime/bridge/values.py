@@ -1,34 +1,40 @@
 """Values of messages in a bridge: joined, selected, converted. Arrays of numbers stay arrays.
 
-What does not fit raises `DoesNotFit` with the path of the field; callers know it, values do not.
+What does not fit raises `DoesNotFit`. Generated code calls these functions.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Any
+import math
+from collections.abc import Callable, Iterator, Sequence
+from operator import add, mul, sub, truediv
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from robocomp_dsl.runtime.bridge.context import NANOSECONDS
 from robocomp_dsl.runtime.bridge.errors import DoesNotFit
 
-_NUMBERS = (int, float, np.number)
+T = TypeVar("T")
+_OPERATORS: dict[str, Callable[[Any, Any], Any]] = {"+": add, "-": sub, "*": mul, "/": truediv}
 
 
-def joined(*parts: Any) -> NDArray[Any] | list[Any]:
-    """The items of all parts in order: scalars one item, sequences theirs.
+def joined(dtype: Any, *parts: Any) -> NDArray[Any]:
+    """The numbers of all parts in order: scalars one item, arrays theirs.
 
-    Numbers give an array, one array alone is returned as it is; anything else gives a list.
+    One array alone is returned as it is if its type is `dtype`.
     """
-    if len(parts) == 1 and isinstance(parts[0], np.ndarray):
-        return parts[0]
-    if all(isinstance(part, _NUMBERS) and not isinstance(part, bool) for part in parts):
-        return np.array(parts)
-    if all(isinstance(part, np.ndarray | int | float | np.number) for part in parts) and not any(
-        isinstance(part, bool) for part in parts
-    ):
-        return np.concatenate([np.atleast_1d(part) for part in parts])
+    if len(parts) == 1:
+        return np.atleast_1d(np.asarray(parts[0], dtype))
+    if any(isinstance(part, np.ndarray | list) for part in parts):
+        arrays = [part if isinstance(part, np.ndarray) else np.atleast_1d(part) for part in parts]
+        return np.concatenate(arrays, dtype=dtype, casting="unsafe")
+    return np.array(parts, dtype)
+
+
+def listed(*parts: Any) -> list[Any]:
+    """The items of all parts in order: scalars one item, sequences theirs; numbers as Python's."""
     return list(_items(parts))
 
 
@@ -36,62 +42,58 @@ def _items(parts: Sequence[Any]) -> Iterator[Any]:
     for part in parts:
         if isinstance(part, np.ndarray):
             yield from part.tolist()
-        elif isinstance(part, list | tuple):
+        elif isinstance(part, Sequence) and not isinstance(part, str):
             yield from part
         else:
             yield part
 
 
-def element(values: Any, index: int, path: str) -> Any:
+def element(values: Any, index: int) -> Any:
     """One element of a sequence; numbers as Python's."""
     if index >= len(values):
-        raise DoesNotFit(path, f"there is no item {index} in a sequence of {len(values)}")
+        raise DoesNotFit(f"there is no item {index}: the sequence has {len(values)}")
     found = values[index]
     return found.item() if isinstance(found, np.generic) else found
 
 
-def elements(values: Any, indices: Sequence[int], path: str) -> Any:
+def elements(values: Any, indices: Sequence[int]) -> Any:
     """Some elements of a sequence in the order of `indices`."""
-    if len(indices) and max(indices) >= len(values):
-        raise DoesNotFit(path, f"there is no item {max(indices)} in a sequence of {len(values)}")
+    if indices and max(indices) >= len(values):
+        raise DoesNotFit(f"there is no item {max(indices)}: the sequence has {len(values)}")
     if isinstance(values, np.ndarray):
         return values[list(indices)]
     return [values[index] for index in indices]
 
 
-def part_of(values: Any, start: int, stop: int, path: str) -> Any:
+def part_of(values: Any, start: int, stop: int) -> Any:
     """The elements from `start` up to `stop`, which is excluded; a view of an array."""
     if stop > len(values):
-        raise DoesNotFit(path, f"there is no item {stop - 1} in a sequence of {len(values)}")
+        raise DoesNotFit(f"there is no item {stop - 1}: the sequence has {len(values)}")
     return values[start:stop]
 
 
-def with_length(values: Any, length: int, path: str) -> Any:
-    """`values`, which must have `length` items."""
-    if len(values) != length:
-        raise DoesNotFit(path, f"takes {length} items, not {len(values)}")
+def with_length(values: T, minimum: int, maximum: int) -> T:
+    """`values`, which must have `minimum` to `maximum` items."""
+    count = len(values)  # type: ignore[arg-type]  # a sequence of any kind
+    if not minimum <= count <= maximum:
+        takes = f"{minimum}" if minimum == maximum else f"{minimum} to {maximum}"
+        raise DoesNotFit(f"takes {takes} item{'s' * (takes != '1')}, not {count}")
     return values
 
 
-def converted(values: Any, factor: float, offset: float = 0.0) -> Any:
-    """`values * factor + offset`, for a number or the numbers of a sequence."""
-    if isinstance(values, list | tuple):
-        values = np.array(values, np.float64)
-    scaled = values * factor if factor != 1.0 else values
-    return scaled + offset if offset else scaled
+def item_by_item(operator: str, left: Any, right: Any) -> Any:
+    """`left operator right` for two lists of numbers, which must have the same length."""
+    if len(left) != len(right):
+        raise DoesNotFit(f"`{operator}` joins lists of {len(left)} and {len(right)} items")
+    return _OPERATORS[operator](np.asarray(left), np.asarray(right))
 
 
-def numbers(values: Any) -> NDArray[Any]:
-    """A sequence of numbers as an array, for arithmetic."""
-    return values if isinstance(values, np.ndarray) else np.array(values)
-
-
-def number(value: Any, path: str) -> float:
+def number(value: Any) -> float:
     """A number from its text, or a number as it is. Raises `DoesNotFit` for other texts."""
     try:
         return float(value)
     except (TypeError, ValueError):
-        raise DoesNotFit(path, f"{value!r} is not a number") from None
+        raise DoesNotFit(f"{value!r:.80} is not a number") from None
 
 
 def text(value: Any) -> str:
@@ -103,12 +105,44 @@ def text(value: Any) -> str:
     return str(value)
 
 
-def integer(value: Any, low: int, high: int, path: str) -> int:
-    """A number as an integer between `low` and `high`, rounded towards zero."""
-    try:
-        whole = int(value)
-    except (ValueError, OverflowError):
-        raise DoesNotFit(path, f"{value!r} is not an integer") from None
+def integer(value: Any, low: int, high: int) -> int:
+    """A number as an integer between `low` and `high`, rounded to the nearest one."""
+    if isinstance(value, float) and not math.isfinite(value):
+        raise DoesNotFit(f"{value!r} is not an integer")
+    whole = round(value)
     if not low <= whole <= high:
-        raise DoesNotFit(path, f"{whole} does not fit ({low} to {high})")
-    return whole
+        raise DoesNotFit(f"{value!r} does not fit ({low} to {high})")
+    return int(whole)
+
+
+def integers(values: Any, dtype: Any) -> NDArray[Any]:
+    """Numbers as integers of `dtype`, rounded to the nearest ones; arrays of it are not copied."""
+    array = np.asarray(values)
+    if array.dtype == dtype:
+        return array
+    limits = np.iinfo(dtype)
+    if array.dtype.kind == "f":
+        array = np.rint(array)
+    fits = (array >= limits.min) & (array <= limits.max)
+    if not fits.all():
+        at = int(np.argmin(fits))
+        raise DoesNotFit(f"item {at}: {array[at]} does not fit ({limits.min} to {limits.max})")
+    return array.astype(dtype)
+
+
+def wrapped(value: int, low: int, high: int) -> int:
+    """A counter in the range `low` to `high`, after which it starts again."""
+    return (value - low) % (high - low + 1) + low
+
+
+def ros_time(time_type: Callable[..., T], nanoseconds: int, second: str, part: str) -> T:
+    """An instant as a ROS time; `second` and `part` are its fields."""
+    seconds, rest = divmod(nanoseconds, NANOSECONDS)
+    return time_type(**{second: seconds, part: rest})
+
+
+def nanoseconds_of(value: Any, unit_ns: float) -> int:
+    """A time stamp in ns; `unit_ns` is the length of its unit in ns."""
+    if isinstance(value, float) and not math.isfinite(value):
+        raise DoesNotFit(f"the time stamp {value!r} is no time")
+    return round(value * unit_ns)
