@@ -29,7 +29,7 @@ _GROUPS = {
     "Field": "Identifier",
     "Function": "Function",
 }
-_BEHIND = {"name": r"\h", "string": '"', "number": r"[-+.0-9]", "[": r"\["}
+_BEHIND = {"name": r"\h", "string": '"', "number": r"[-+.0-9]", "digit": r"\.\=\d", "[": r"\["}
 _BEHIND_TYPE = {
     "idsl": r"\ze\%(\s\+\h\|\s*[<>,)]\|\s*$\)",
     "bdsl": r"\ze\%(\s\+\h\|\s*[[;{]\|\s*$\)",

@@ -55,6 +55,7 @@ _FOLLOWING = {
     "ID": "name",
     "STRING": "string",
     "NUMBER": "number",
+    "UNSIGNED": "digit",
     "LBRACE": "{",
     "LESSTHAN": "<",
     "LPAR": "(",
@@ -104,7 +105,7 @@ class Grammar:
         after = {row[terminal] for row in self._actions if row.get(terminal, -1) >= 0}
         kinds = {kind for state in after for kind in self._actions[state]}
         if any(terminal == symbols[0].name for symbols, _ in self._rules.get(_FIELD_WORDS, ())):
-            kinds -= _BEHIND_FIELDS
+            kinds = {"UNSIGNED" if kind == "NUMBER" else kind for kind in kinds - _BEHIND_FIELDS}
         kinds = {"ID" if kind in self.terminals else kind for kind in kinds}
         return sorted(_FOLLOWING[kind] for kind in kinds if kind in _FOLLOWING)
 

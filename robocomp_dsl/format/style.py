@@ -78,7 +78,7 @@ STYLES: Mapping[str, Style] = {
     "bdsl": Style(
         before=_BEFORE - {"("} | {"INDEX"},
         after=_AFTER | {"UNARY"},
-        pairs=frozenset((("ID", "("),)),
+        pairs=frozenset((("ID", "("), ("{", "}"))),
         wraps=frozenset(("over", "at", "to", "->", "+", "-", "*", "/")),
         operators=True,
         inline_braces=True,

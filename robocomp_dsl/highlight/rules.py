@@ -18,7 +18,7 @@ from robocomp_dsl.highlight.table import StatementKeywords, Words
 
 NAME = r"[A-Za-z_]\w*"
 _NUMBER = r"0[xX][0-9a-fA-F]+|[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-_BEHIND = {"name": "[A-Za-z_]", "string": '"', "number": r"[-+.\d]"}
+_BEHIND = {"name": "[A-Za-z_]", "string": '"', "number": r"[-+.\d]", "digit": r"\.?\d"}
 _IN_BRACES = r"\{[\w\s,]*\}"
 _OPERATOR = r"->|=>|::|&&|\|\||[=:<>+.!-]"
 _OPERATORS = {"bdsl": r"->|::|[=:+*/.-]"}

@@ -48,12 +48,12 @@ hi def link bdsl_deadline_inner bdslModifier
 hi def link bdsl_deadline_value bdslValue
 hi def link bdsl_deadline_name bdslName
 hi def link bdsl_deadline_field bdslField
-syn region bdsl_deadline matchgroup=bdslKeyword start=/\<deadline\>\%(\s*\%(;\|[-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_deadline_inner,bdsl_deadline_value,bdsl_deadline_name,bdsl_deadline_field
+syn region bdsl_deadline matchgroup=bdslKeyword start=/\<deadline\>\%(\s*\%(;\|\.\=\d\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_deadline_inner,bdsl_deadline_value,bdsl_deadline_name,bdsl_deadline_field
 hi def link bdsl_depth_inner bdslModifier
 hi def link bdsl_depth_value bdslValue
 hi def link bdsl_depth_name bdslName
 hi def link bdsl_depth_field bdslField
-syn region bdsl_depth matchgroup=bdslKeyword start=/\<depth\>\%(\s*\%(;\|[-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_depth_inner,bdsl_depth_value,bdsl_depth_name,bdsl_depth_field
+syn region bdsl_depth matchgroup=bdslKeyword start=/\<depth\>\%(\s*\%(;\|\.\=\d\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_depth_inner,bdsl_depth_value,bdsl_depth_name,bdsl_depth_field
 hi def link bdsl_function_inner bdslModifier
 hi def link bdsl_function_value bdslValue
 hi def link bdsl_function_name bdslName
@@ -84,7 +84,7 @@ hi def link bdsl_item_inner bdslModifier
 hi def link bdsl_item_value bdslValue
 hi def link bdsl_item_name bdslName
 hi def link bdsl_item_field bdslField
-syn region bdsl_item matchgroup=bdslKeyword start=/\<item\>\%(\s*\%("\|(\|-\|;\|[-+.0-9]\|\h\|{\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_item_inner,bdsl_item_value,bdsl_item_name,bdsl_item_field
+syn region bdsl_item matchgroup=bdslKeyword start=/\<item\>\%(\s*\%("\|(\|-\|;\|\.\=\d\|\h\|{\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_item_inner,bdsl_item_value,bdsl_item_name,bdsl_item_field
 syn match bdsl_keep_inner contained /\.\@<!\<all\>\.\@!\%(\s*\%(;\|\/[*\/]\|$\)\)\@=/
 syn match bdsl_keep_inner contained /\.\@<!\<last\>\.\@!\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/
 hi def link bdsl_keep_inner bdslModifier
@@ -106,7 +106,7 @@ hi def link bdsl_liveliness_inner bdslModifier
 hi def link bdsl_liveliness_value bdslValue
 hi def link bdsl_liveliness_name bdslName
 hi def link bdsl_liveliness_field bdslField
-syn region bdsl_liveliness matchgroup=bdslKeyword start=/\<liveliness\>\%(\s*\%(;\|[-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_liveliness_inner,bdsl_liveliness_value,bdsl_liveliness_name,bdsl_liveliness_field
+syn region bdsl_liveliness matchgroup=bdslKeyword start=/\<liveliness\>\%(\s*\%(;\|\.\=\d\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_liveliness_inner,bdsl_liveliness_value,bdsl_liveliness_name,bdsl_liveliness_field
 hi def link bdsl_max_age_inner bdslModifier
 hi def link bdsl_max_age_value bdslValue
 hi def link bdsl_max_age_name bdslName
@@ -145,7 +145,7 @@ hi def link bdsl_rate_inner bdslModifier
 hi def link bdsl_rate_value bdslValue
 hi def link bdsl_rate_name bdslName
 hi def link bdsl_rate_field bdslField
-syn region bdsl_rate matchgroup=bdslKeyword start=/\<rate\>\%(\s*\%(;\|[-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_rate_inner,bdsl_rate_value,bdsl_rate_name,bdsl_rate_field
+syn region bdsl_rate matchgroup=bdslKeyword start=/\<rate\>\%(\s*\%(;\|\.\=\d\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_rate_inner,bdsl_rate_value,bdsl_rate_name,bdsl_rate_field
 hi def link bdsl_reliable_inner bdslModifier
 hi def link bdsl_reliable_value bdslValue
 hi def link bdsl_reliable_name bdslName

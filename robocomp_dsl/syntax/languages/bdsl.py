@@ -154,7 +154,7 @@ class BdslBuilder(ExpressionBuilder, TypeBuilder, QosBuilder):
                 help=f"write `policy {word.text} within 20 ms;`: how much the time stamps of "
                 "messages that belong together may differ",
             )
-        elif synchronises or self.check_choice(word, POLICIES, "policy of a hub"):
+        elif synchronises or self.check_choice(word, POLICIES, "hub policy"):
             self._only_synchronised(word, tolerance, synchronises=synchronises)
         return BlockSetting(span, "policy", HubPolicy(span, word, tolerance))
 

@@ -72,7 +72,8 @@ class TypeBuilder(Builder):
         elif bracket is not None and (not bracket.text or bracket.text.isdecimal()):
             self._misplaced(bracket, name)
         elif bracket is not None:
-            field_type = field_type.replace(unit=bracket)
+            whole = field_type.span.cover(bracket.span)
+            field_type = field_type.replace(span=whole, unit=bracket)
         return ast.ShapeField(span, field_type, name)
 
     def _misplaced(self, bracket: Unit, name: Name) -> None:
