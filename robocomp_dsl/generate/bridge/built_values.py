@@ -8,6 +8,7 @@ from robocomp_dsl.generate.bridge.bridge_names import BridgeNames, element_dtype
 from robocomp_dsl.generate.bridge.expressions import ExpressionPrinter
 from robocomp_dsl.generate.bridge.places import place
 from robocomp_dsl.generate.literals import quoted
+from robocomp_dsl.generate.python.python_types import record_element
 from robocomp_dsl.model.bridge_values import BuiltValue, Expression, StructOf
 from robocomp_dsl.model.types import (
     BOOL,
@@ -63,8 +64,9 @@ def value_lines(value: BuiltValue, variable: str, built: BuiltLines) -> str:
             _copy_parts(variable, value.param.type, assignment.path, copied, built)
         target = _target(variable, value.param.type, assignment.path, built.names)[-1]
         shown = _shown(assignment.path)
-        built.locate(f"{root}.{shown}" if root and not root.endswith(".") else root + shown,
-                     assignment.value)
+        built.locate(
+            f"{root}.{shown}" if root and not root.endswith(".") else root + shown, assignment.value
+        )
         built.lines.append(f"{target} = {built.printer.text(assignment.value)}")
     return variable
 
@@ -112,5 +114,6 @@ def default_text(type_: Type, names: BridgeNames) -> str:
         dtype = element_dtype(type_)
         if dtype:
             return f"np.zeros({type_.size}, {dtype})"
-        return f"{names.type_name(type_)}()" if not type_.is_anonymous else "[]"
+        is_array = record_element(type_) is not None and not type_.is_anonymous
+        return f"{names.type_name(type_)}()" if is_array else "[]"
     return f"{names.type_name(type_)}()"

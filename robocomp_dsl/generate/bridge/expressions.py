@@ -98,8 +98,10 @@ class ExpressionPrinter:
             case bv.TimeIn():
                 operator = "/" if node.type in (FLOAT, DOUBLE) else "//"
                 text = self.text(node.value)
-                return text if node.nanoseconds == 1 and operator == "//" else (
-                    f"({text} {operator} {_grouped(node.nanoseconds)})"
+                return (
+                    text
+                    if node.nanoseconds == 1 and operator == "//"
+                    else (f"({text} {operator} {_grouped(node.nanoseconds)})")
                 )
         raise NotImplementedError(type(node).__name__)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from robocomp_dsl.generate.bridge.bridge_names import BridgeNames, element_dtype
+from robocomp_dsl.generate.bridge.bridge_names import BridgeNames, primitive_dtype
 from robocomp_dsl.generate.bridge.built_values import BuiltLines, value_lines
 from robocomp_dsl.generate.bridge.expressions import ExpressionPrinter
 from robocomp_dsl.generate.bridge.places import place
@@ -18,7 +18,8 @@ from robocomp_dsl.generate.names import unique
 from robocomp_dsl.model.bridge import Bridge, BridgeOutput, BridgeService
 from robocomp_dsl.model.bridge_ports import BridgeInput
 from robocomp_dsl.model.bridge_values import BridgeHub
-from robocomp_dsl.model.types import Field, Struct
+from robocomp_dsl.model.interface import Operation, Param
+from robocomp_dsl.model.types import Field, Struct, Type
 from robocomp_dsl.model.units import parse_unit
 from robocomp_dsl.record import ValueRecord
 
@@ -113,7 +114,7 @@ def _hub(hub: BridgeHub, names: BridgeNames) -> MappingFunction:
     printer = ExpressionPrinter(names, local_names)
     parts = [printer.text(value) for value in hub.values]
     number = hub.type.number
-    dtype = element_dtype_of(number) if number else ""
+    dtype = primitive_dtype(number) if number else ""
     if dtype:
         result = f"values.joined({', '.join((dtype, *parts))})"
     else:
@@ -126,13 +127,6 @@ def _hub(hub: BridgeHub, names: BridgeNames) -> MappingFunction:
         f"The items of the hub `{hub.name}` ({place(hub.span)}).",
         (*lines, f"return {result}"),
     )
-
-
-def element_dtype_of(number: object) -> str:
-    """The numpy type of a number type of the model."""
-    from robocomp_dsl.generate.bridge.bridge_names import primitive_dtype  # noqa: PLC0415
-
-    return primitive_dtype(number)  # type: ignore[arg-type]
 
 
 def _output(output: BridgeOutput, names: BridgeNames) -> MappingFunction:
@@ -176,8 +170,8 @@ def _output(output: BridgeOutput, names: BridgeNames) -> MappingFunction:
     )
 
 
-def _argument_names(parameters: Sequence[object]) -> tuple[str, ...]:
-    return unique([f"argument_{parameter.name}" for parameter in parameters])  # type: ignore[attr-defined]
+def _argument_names(parameters: Sequence[Param]) -> tuple[str, ...]:
+    return unique([f"argument_{parameter.name}" for parameter in parameters])
 
 
 def _service(service: BridgeService, names: BridgeNames) -> MappingFunction:
@@ -229,11 +223,10 @@ def _service(service: BridgeService, names: BridgeNames) -> MappingFunction:
     )
 
 
-def _results(operation: object) -> list[tuple[str, object]]:
+def _results(operation: Operation) -> list[tuple[str, Type]]:
     """The results of a call by name: its result, then its out parameters."""
-    result = operation.result  # type: ignore[attr-defined]
-    outputs = [(p.name, p.type) for p in operation.outputs]  # type: ignore[attr-defined]
-    return [*([("result", result)] if result is not None else []), *outputs]
+    outputs = [(p.name, p.type) for p in operation.outputs]
+    return [*([("result", operation.result)] if operation.result is not None else []), *outputs]
 
 
 def _check(item: BridgeInput, names: BridgeNames) -> MappingFunction:
@@ -274,13 +267,10 @@ def _stamp(item: BridgeInput, names: BridgeNames) -> MappingFunction:
     )
 
 
-def _path(start: str, type_: object, path: Sequence[Field], names: BridgeNames) -> str:
+def _path(start: str, type_: Type, path: Sequence[Field], names: BridgeNames) -> str:
     text = start
     for field in path:
         assert isinstance(type_, Struct)
         text += f".{names.field(type_, field)}"
         type_ = field.type
     return text
-
-
-__all__ = ["MappingCode", "MappingFunction", "element_dtype", "mapping_code"]

@@ -47,7 +47,7 @@ _NANOSECONDS = 1_000_000_000
 class LatestHub:
     """The newest message of each input; a new set with each message after the first set."""
 
-    def __init__(self, spec: HubSpec, drop: Drop) -> None:
+    def __init__(self, spec: HubSpec, _drop: Drop) -> None:
         self.spec = spec
         self.max_age = spec.max_age
         self.messages: MessageSet | None = None

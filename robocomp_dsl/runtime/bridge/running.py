@@ -27,6 +27,7 @@ from robocomp_dsl.runtime.bridge.spec import (
     ServiceSpec,
 )
 from robocomp_dsl.runtime.clock import Clock, WallClock
+from robocomp_dsl.runtime.component.lifecycle import Lifecycle
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.connection.message_stamp import message_stamp
 
@@ -48,13 +49,14 @@ class BridgeHost(Protocol):
 
     clock: Clock
     log: logging.Logger
+    _lifecycle: Lifecycle
 
 
 class RunningBridge:
     """The bridge of one worker.
 
-    `publish` has the publishing function of each output by name; `message_stamp` returns the time
-    stamp in ns of the message that a handler handles.
+    `publish` has the publishing function of each output by name; `statistics` None: those of the
+    component. `message_stamp` returns the time stamp in ns of the message that a handler handles.
     """
 
     def __init__(
@@ -71,7 +73,7 @@ class RunningBridge:
         self._now = worker.clock.now
         is_wall = isinstance(worker.clock, WallClock)
         self._now_ns = time.time_ns if is_wall else self._simulated_ns
-        self._statistics = statistics or Statistics()
+        self._statistics = statistics or worker._lifecycle.statistics
         self.inputs = {s.name: self._input(s, message_stamp) for s in spec.inputs}
         self.hubs = {s.name: self._hub(s) for s in spec.hubs}
         self.outputs = {s.name: self._output(s, publish[s.name]) for s in spec.outputs}

@@ -109,10 +109,10 @@ def integer(value: Any, low: int, high: int) -> int:
     """A number as an integer between `low` and `high`, rounded to the nearest one."""
     if isinstance(value, float) and not math.isfinite(value):
         raise DoesNotFit(f"{value!r} is not an integer")
-    whole = round(value)
+    whole = int(round(value))
     if not low <= whole <= high:
         raise DoesNotFit(f"{value!r} does not fit ({low} to {high})")
-    return int(whole)
+    return whole
 
 
 def integers(values: Any, dtype: Any) -> NDArray[Any]:

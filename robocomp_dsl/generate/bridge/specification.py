@@ -1,0 +1,333 @@
+"""The content of `bridge_worker.py`: the specification of a bridge, and a method for each event.
+
+In: a bridge, its names, wiring and mapping. Out: plain data for the template.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_dsl.generate import literals, names
+from robocomp_dsl.generate.bridge.bridge_names import BridgeNames
+from robocomp_dsl.generate.bridge.mapping import MappingCode
+from robocomp_dsl.generate.bridge.places import place
+from robocomp_dsl.generate.bridge.wiring import BridgeWiring
+from robocomp_dsl.generate.literals import python_value, quoted
+from robocomp_dsl.generate.python.layout import BODY, INNER
+from robocomp_dsl.model.bridge import Bridge, BridgeOutput, BridgeService
+from robocomp_dsl.model.bridge_ports import BridgeFunction, BridgeInput
+from robocomp_dsl.model.bridge_values import (
+    BridgeHub,
+    Expression,
+    HubPolicy,
+    StampOf,
+)
+from robocomp_dsl.record import Record, ValueRecord
+
+
+class BridgeMethod(ValueRecord):
+    """One method of the class: its head, docstring and lines."""
+
+    head: str
+    doc: str
+    lines: tuple[str, ...]
+
+
+class SpecificationCode(ValueRecord):
+    """The module. `inputs`, `hubs`, `outputs` and `services` are calls of their classes."""
+
+    source: str
+    title: str
+    package: str
+    doc: str
+    params: str
+    inputs: tuple[str, ...]
+    hubs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    services: tuple[str, ...]
+    spec: str
+    publish: str
+    settings: tuple[str, ...]
+    methods: tuple[BridgeMethod, ...]
+    functions: tuple[BridgeMethod, ...]
+    imports: tuple[str, ...]
+    classes: tuple[str, ...]
+
+
+def specification_code(
+    bridge: Bridge, bridge_names: BridgeNames, wiring: BridgeWiring, mapping: MappingCode
+) -> SpecificationCode:
+    """The data of the template of `bridge_worker.py`."""
+    bridge_names.used.clear()
+    stamped = set(_stamped(bridge))
+    groups = _group_attributes(bridge)
+    methods = [
+        *(_handler(item, bridge_names) for item in bridge.inputs),
+        *(_service_method(service, bridge_names) for service in bridge.services),
+        *_parameter_hooks(bridge, groups),
+    ]
+    functions = tuple(function_method(f, bridge_names) for f in bridge.functions)
+    inputs = tuple(_input(item, stamped) for item in bridge.inputs)
+    hubs = tuple(_hubs(bridge))
+    outputs = tuple(_output(output, bridge_names, mapping) for output in bridge.outputs)
+    services = tuple(_service(service, mapping) for service in bridge.services)
+    publish = ", ".join(
+        f"{quoted(o.name)}: self.{bridge_names.call(o.port)}" for o in bridge.outputs
+    )
+    lists = {
+        "InputSpec": inputs,
+        "HubSpec": hubs,
+        "OutputSpec": outputs,
+        "ServiceSpec": services,
+    }
+    return SpecificationCode(
+        literals.printable(bridge.path.name),
+        bridge.name,
+        bridge_names.python.package,
+        literals.docstring(bridge.doc, INNER, f"The bridge {bridge.name}."),
+        bridge_names.python.params,
+        inputs,
+        hubs,
+        outputs,
+        services,
+        _spec(wiring),
+        f"{{{publish}}}",
+        tuple(_settings(bridge, groups)),
+        tuple(methods),
+        functions,
+        tuple(sorted(bridge_names.used)),
+        tuple(sorted(["BridgeSpec", *(name for name, rows in lists.items() if rows)])),
+    )
+
+
+def _spec(wiring: BridgeWiring) -> str:
+    """The default connections that `GenericWorker` lacks; "" if there are none."""
+    parts = [
+        f"{key}={_tuple(map(quoted, values))}"
+        for key, values in (
+            ("connections", wiring.connections),
+            ("addresses", wiring.addresses),
+            ("qualities", wiring.qualities),
+        )
+        if values
+    ]
+    return f"replace(GenericWorker.SPEC, {', '.join(parts)})" if parts else ""
+
+
+def _tuple(items: object) -> str:
+    rows = list(items)  # type: ignore[call-overload]
+    return f"({', '.join(rows)}{',' * (len(rows) == 1)})"
+
+
+def _stamped(bridge: Bridge) -> Iterator[str]:
+    """The inputs whose time stamps are used."""
+    for hub in bridge.hubs:
+        if hub.policy is HubPolicy.SYNCHRONISED:
+            yield from (item.name for item in hub.inputs)
+    for output in bridge.outputs:
+        yield from (item.name for item in output.uses.stamps)
+    yield from (node.input.name for node in _nodes(bridge) if isinstance(node, StampOf))
+
+
+def _nodes(value: object) -> Iterator[object]:
+    """All nodes of the expressions in a record, at any depth."""
+    if isinstance(value, tuple):
+        for item in value:
+            yield from _nodes(item)
+    elif isinstance(value, (Expression, Bridge, BridgeOutput, BridgeService)) or (
+        isinstance(value, Record) and type(value).__module__.endswith("bridge_values")
+    ):
+        yield value
+        for field in type(value).__match_args__:
+            yield from _nodes(getattr(value, field))
+
+
+def _input(item: BridgeInput, stamped: set[str]) -> str:
+    port = item.port
+    parts = [*map(quoted, (item.name, port.name, port.operation.name, place(port.span)))]
+    if item.name in stamped:
+        parts += [f"stamp=mapping.stamp_{item.name}"] if item.stamp_path else []
+        parts += ["needs_stamp=True"]
+    if item.length_checks:
+        parts.append(f"check=mapping.check_{item.name}")
+    return f"InputSpec({', '.join(parts)})"
+
+
+def _hubs(bridge: Bridge) -> Iterator[str]:
+    """The hubs, and one for each input that an output uses without a hub."""
+    for hub in bridge.hubs:
+        yield _hub(hub)
+    used = dict.fromkeys(item for output in bridge.outputs for item in output.uses.inputs)
+    stamps = dict.fromkeys(item for output in bridge.outputs for item in output.uses.stamps)
+    for item in used:
+        yield f"HubSpec({quoted(item.name)}, ({quoted(item.name)},), {quoted(place(item.port.span))})"
+    for item in stamps:
+        name, where = quoted(stamp_hub(item)), quoted(place(item.port.span))
+        yield f"HubSpec({name}, ({quoted(item.name)},), {where}, is_passive=True)"
+
+
+def stamp_hub(item: BridgeInput) -> str:
+    """The name of the hub of an input of which only the time stamp is used."""
+    return f"stamp({item.name})"
+
+
+def _hub(hub: BridgeHub) -> str:
+    inputs = _tuple(quoted(item.name) for item in hub.inputs)
+    parts = [quoted(hub.name), inputs, quoted(place(hub.span))]
+    if hub.policy is not HubPolicy.LATEST:
+        parts.append(quoted(hub.policy.value))
+    values = {"tolerance": hub.tolerance_s, "max_age": hub.max_age_s}
+    parts += [f"{key}={python_value(float(value))}" for key, value in values.items() if value]
+    parts += [f"length={hub.length}"] if hub.length else []
+    return f"HubSpec({', '.join(parts)})"
+
+
+def _output(output: BridgeOutput, bridge_names: BridgeNames, mapping: MappingCode) -> str:
+    port, uses = output.port, output.uses
+    hubs = _tuple(
+        quoted(name)
+        for name in (
+            *(item.name for item in uses.inputs),
+            *(hub.name for hub in uses.hubs),
+            *map(stamp_hub, uses.stamps),
+        )
+    )
+    function = mapping.function(f"output_{output.name}")
+    del bridge_names
+    parts = [*map(quoted, (output.name, port.name, port.operation.name)), hubs]
+    parts += [f"mapping.{function.name}", _places(function.places)]
+    parts += [f"rate={python_value(float(output.rate_hz))}"] if output.rate_hz else []
+    return f"OutputSpec({', '.join(parts)})"
+
+
+def _places(places: tuple[tuple[str, str], ...]) -> str:
+    return f"{{{', '.join(f'{quoted(path)}: {quoted(where)}' for path, where in places)}}}"
+
+
+def _service(service: BridgeService, mapping: MappingCode) -> str:
+    port = service.port
+    function = mapping.function(f"service_{service.name}")
+    parts = [*map(quoted, (service.name, port.name, port.operation.name))]
+    parts += [f"mapping.{function.name}", _places(function.places)]
+    return f"ServiceSpec({', '.join(parts)})"
+
+
+def _group_attributes(bridge: Bridge) -> dict[str, str]:
+    """The attributes of the parameter groups in `params`, by their names."""
+    declared = [*(o.name for o in bridge.outputs), *(hub.name for hub in bridge.hubs)]
+    attributes = names.unique(declared, names.PARAMETER_MEMBERS | names.ANNOTATION)
+    return dict(zip(declared, attributes, strict=True))
+
+
+def _settings(bridge: Bridge, groups: dict[str, str]) -> Iterator[str]:
+    """The statements of `initialize` that apply the parameters."""
+    for output in bridge.outputs:
+        yield f"self.bridge.set_rate({quoted(output.name)}, params.{groups[output.name]}.rate)"
+    for hub in bridge.hubs:
+        yield f"self.bridge.set_max_age({quoted(hub.name)}, params.{groups[hub.name]}.max_age)"
+        if hub.policy is HubPolicy.SYNCHRONISED:
+            value = f"params.{groups[hub.name]}.tolerance"
+            yield f"self.bridge.set_tolerance({quoted(hub.name)}, {value})"
+
+
+def _parameter_hooks(bridge: Bridge, groups: dict[str, str]) -> Iterator[BridgeMethod]:
+    for output in bridge.outputs:
+        value = f"self.params.{groups[output.name]}.rate"
+        yield _hook(
+            f"{output.name}_rate",
+            "rate",
+            (f"self.set_period(self.bridge.set_rate({quoted(output.name)}, {value}))",),
+        )
+    for hub in bridge.hubs:
+        value = f"self.params.{groups[hub.name]}.max_age"
+        line = f"self.bridge.set_max_age({quoted(hub.name)}, {value})"
+        yield _hook(f"{hub.name}_max_age", "maximum age", (line,))
+        if hub.policy is HubPolicy.SYNCHRONISED:
+            value = f"self.params.{groups[hub.name]}.tolerance"
+            line = f"self.bridge.set_tolerance({quoted(hub.name)}, {value})"
+            yield _hook(f"{hub.name}_tolerance", "tolerance", (line,))
+
+
+def _hook(name: str, what: str, lines: tuple[str, ...]) -> BridgeMethod:
+    head = f"def did_set_{name}(self, old: float) -> None:"
+    return BridgeMethod(head, f'"""Set the {what}."""', lines)
+
+
+def _handler(item: BridgeInput, bridge_names: BridgeNames) -> BridgeMethod:
+    arguments = _arguments(item.port.name, item.port.operation.name, bridge_names)
+    value = ", ".join(name for name, _ in arguments)
+    value = value if len(arguments) == 1 else f"({value})"
+    return BridgeMethod(
+        _head(bridge_names.handler(item.port), arguments, "None"),
+        literals.docstring(f"Receive a message of the input `{item.name}`.", BODY),
+        (f"self.bridge.inputs[{quoted(item.name)}].receive({value})",),
+    )
+
+
+def _service_method(service: BridgeService, bridge_names: BridgeNames) -> BridgeMethod:
+    port = service.port
+    arguments = _arguments(port.name, port.operation.name, bridge_names)
+    types = bridge_names.python.types
+    component_port = next(p for p, _ in bridge_names.python.handlers if p.name == port.name)
+    operation = next(
+        o for o in component_port.interface.operations if o.name == port.operation.name
+    )
+    returns = types.returns(operation)
+    names_used = [d for d in types.names.values() if d in returns.replace("[", " ").split()]
+    bridge_names.used |= {n for n in types.names.values() if n in {returns, *names_used}}
+    call = (
+        f"self.bridge.services[{quoted(service.name)}].answer({', '.join(n for n, _ in arguments)})"
+    )
+    lines = (call,) if returns == "None" else (f"reply: {returns} = {call}", "return reply")
+    return BridgeMethod(
+        _head(bridge_names.handler(port), arguments, returns),
+        literals.docstring(f"Answer a request of the service `{service.name}`.", BODY),
+        lines,
+    )
+
+
+def _arguments(port: str, operation: str, bridge_names: BridgeNames) -> list[tuple[str, str]]:
+    """The arguments of a handler with their annotations; the types are imported."""
+    python = bridge_names.python
+    own, found = next((p, o) for p, o in python.handlers if p.name == port and o.name == operation)
+    del own
+    arguments = python.types.arguments(found)
+    known = set(python.types.names.values())
+    bridge_names.used |= {annotation for _, annotation in arguments if annotation in known}
+    return arguments
+
+
+def _head(name: str, arguments: list[tuple[str, str]], returns: str) -> str:
+    parameters = ", ".join(["self", *(f"{a}: {t}" for a, t in arguments)])
+    return f"def {name}({parameters}) -> {returns}:"
+
+
+def function_arguments(
+    function: BridgeFunction, bridge_names: BridgeNames
+) -> tuple[list[tuple[str, str]], str]:
+    """The arguments of a user's function with their annotations, and that of the result."""
+    argument_names = names.unique([p.name for p in function.parameters], names.ARGUMENTS)
+    arguments = [
+        (name, bridge_names.annotation(p.type))
+        for name, p in zip(argument_names, function.parameters, strict=True)
+    ]
+    return arguments, bridge_names.annotation(function.result)
+
+
+def function_method(function: BridgeFunction, bridge_names: BridgeNames) -> BridgeMethod:
+    """The method that the user overrides."""
+    arguments, returns = function_arguments(function, bridge_names)
+    name = bridge_names.variables[function.name]
+    return BridgeMethod(
+        _head(name, arguments, returns),
+        literals.docstring(function_doc(function), BODY),
+        (f"raise rt.NotImplementedOperation({quoted(name)})",),
+    )
+
+
+def function_doc(function: BridgeFunction) -> str:
+    """The documentation of a user's function: its comment and units."""
+    units = [f"{p.name} in {p.unit}" for p in function.parameters if p.unit]
+    units += [f"the result in {function.unit}"] if function.unit else []
+    title = function.doc or f"The function `{function.name}` ({place(function.span)})."
+    return f"{title}\n\nUnits: {', '.join(units)}." if units else title
