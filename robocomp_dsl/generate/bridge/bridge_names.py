@@ -76,8 +76,9 @@ class BridgeNames:
         """`Color.red`."""
         return f"{self.type_name(type_)}.{self._enumerators[type_.qualified, name]}"
 
-    def field(self, struct: Struct, field: Field) -> str:
-        """The attribute of a field."""
+    def field(self, type_: object, field: Field) -> str:
+        """The attribute of a field of a struct."""
+        struct = struct_of(type_)
         index = next(i for i, other in enumerate(struct.fields) if other.name == field.name)
         return field_names(struct)[index]
 
@@ -97,6 +98,13 @@ class BridgeNames:
 
 def _is_named(type_: Declaration) -> bool:
     return not (isinstance(type_, Sequence) and type_.is_anonymous)
+
+
+def struct_of(type_: object) -> Struct:
+    """A type that the checker has found to be a struct."""
+    if not isinstance(type_, Struct):
+        raise TypeError(f"{type_!r} is no struct")
+    return type_
 
 
 def element_dtype(type_: Type | object) -> str:

@@ -17,7 +17,6 @@ from robocomp_dsl.model.types import (
     STRING,
     Field,
     Primitive,
-    Struct,
     Type,
 )
 from robocomp_dsl.model.types import Sequence as SequenceType
@@ -86,10 +85,9 @@ def _target(variable: str, type_: Type, path: Path, names: BridgeNames) -> list[
     parts, text = [], variable
     for part in path:
         if isinstance(part, int):
-            assert isinstance(type_, SequenceType)
-            text, type_ = f"{text}[{part}]", type_.element
+            text = f"{text}[{part}]"
+            type_ = type_.element if isinstance(type_, SequenceType) else type_
         else:
-            assert isinstance(type_, Struct)
             text, type_ = f"{text}.{names.field(type_, part)}", part.type
         parts.append(text)
     return parts

@@ -183,7 +183,8 @@ def idsl_text(module: Module, source: str) -> str:
     imports = [f'import "{_import_of(imported)}";' for imported in module.imports]
     body = "\n".join(printer.declarations())
     head = "\n".join([*rows, *imports, ""])
-    return f"{head}\n/** The messages of the bridge in {source}. */\nmodule {module.name}\n{{\n{body}}};\n"
+    about = f"/** The messages of the bridge in {source}. */"
+    return f"{head}\n{about}\nmodule {module.name}\n{{\n{body}}};\n"
 
 
 def _import_of(module: Module) -> str:

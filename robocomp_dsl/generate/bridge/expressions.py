@@ -7,10 +7,14 @@ ints and floats, sequences of numbers numpy arrays, instants ints in ns. `values
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 from robocomp_dsl.generate.bridge.bridge_names import (
     BridgeNames,
     element_dtype,
     primitive_dtype,
+    struct_of,
 )
 from robocomp_dsl.generate.literals import python_value, quoted
 from robocomp_dsl.model import bridge_values as bv
@@ -32,78 +36,57 @@ class ExpressionPrinter:
 
     def text(self, node: bv.Expression) -> str:
         """The expression as Python; an operand of any operator."""
-        match node:
-            case bv.ConstantValue():
-                return self._constant(node)
-            case bv.ListExpression():
-                return self._list(node)
-            case bv.InputValue():
-                return self._locals[node.input.name, node.param.name]
-            case bv.HubValue():
-                return self._names.variables[node.hub.name]
-            case bv.RequestValue():
-                return self._locals["", node.param.name]
-            case bv.ReplyValue():
-                return self._locals[node.call.name, node.param.name]
-            case bv.StructOf():
-                return self._struct(node)
-            case bv.Cast():
-                return self._cast(node)
-            case bv.Called():
-                return self._called(node)
-            case _:
-                return self._operation(node)
+        return _PRINTERS[type(node)](self, node)
 
-    def _operation(self, node: bv.Expression) -> str:
-        match node:
-            case bv.FieldOf(value=value):
-                assert isinstance(value.type, Struct)
-                return f"{self.text(value)}.{self._names.field(value.type, node.field)}"
-            case bv.ItemAt():
-                return f"values.element({self.text(node.value)}, {node.index})"
-            case bv.Selected():
-                indices = ", ".join(map(str, node.indices))
-                comma = "," * (len(node.indices) == 1)
-                return f"values.elements({self.text(node.value)}, ({indices}{comma}))"
-            case bv.Sliced(stop=None):
-                return f"{self.text(node.value)}[{node.start}:]"
-            case bv.Sliced():
-                return f"values.part_of({self.text(node.value)}, {node.start}, {node.stop})"
-            case bv.LengthChecked():
-                limits = f"{node.minimum}, {node.maximum}"
-                return f"values.with_length({self.text(node.value)}, {limits})"
-            case bv.Arithmetic():
-                return self._arithmetic(node)
-            case bv.Negated():
-                return f"(-{self.text(node.value)})"
-            case bv.Converted():
-                return self._converted(node)
-            case _:
-                return self._builtin(node)
+    def _input(self, node: bv.InputValue) -> str:
+        return self._locals[node.input.name, node.param.name]
 
-    def _builtin(self, node: bv.Expression) -> str:
-        match node:
-            case bv.NumberOf():
-                return f"values.number({self.text(node.value)})"
-            case bv.TextOf():
-                return f"values.text({self.text(node.value)})"
-            case bv.LengthOf():
-                return f"len({self.text(node.value)})"
-            case bv.StampOf():
-                return f"at.stamp_ns({quoted(node.input.name)})"
-            case bv.Now():
-                return "at.now_ns"
-            case bv.Counter():
-                return "at.counter"
-            case bv.TimeIn():
-                operator = "/" if node.type in (FLOAT, DOUBLE) else "//"
-                text = self.text(node.value)
-                return (
-                    text
-                    if node.nanoseconds == 1 and operator == "//"
-                    else (f"({text} {operator} {_grouped(node.nanoseconds)})")
-                )
-        raise NotImplementedError(type(node).__name__)
+    def _hub(self, node: bv.HubValue) -> str:
+        return self._names.variables[node.hub.name]
+
+    def _request(self, node: bv.RequestValue) -> str:
+        return self._locals["", node.param.name]
+
+    def _reply(self, node: bv.ReplyValue) -> str:
+        return self._locals[node.call.name, node.param.name]
+
+    def _field(self, node: bv.FieldOf) -> str:
+        return f"{self.text(node.value)}.{self._names.field(node.value.type, node.field)}"
+
+    def _item(self, node: bv.ItemAt) -> str:
+        return f"values.element({self.text(node.value)}, {node.index})"
+
+    def _selected(self, node: bv.Selected) -> str:
+        indices = ", ".join(map(str, node.indices))
+        comma = "," * (len(node.indices) == 1)
+        return f"values.elements({self.text(node.value)}, ({indices}{comma}))"
+
+    def _sliced(self, node: bv.Sliced) -> str:
+        if node.stop is None:
+            return f"{self.text(node.value)}[{node.start}:]"
+        return f"values.part_of({self.text(node.value)}, {node.start}, {node.stop})"
+
+    def _length_checked(self, node: bv.LengthChecked) -> str:
+        return f"values.with_length({self.text(node.value)}, {node.minimum}, {node.maximum})"
+
+    def _negated(self, node: bv.Negated) -> str:
+        return f"(-{self.text(node.value)})"
+
+    def _value_function(self, node: bv.NumberOf | bv.TextOf) -> str:
+        name = "number" if isinstance(node, bv.NumberOf) else "text"
+        return f"values.{name}({self.text(node.value)})"
+
+    def _length(self, node: bv.LengthOf) -> str:
+        return f"len({self.text(node.value)})"
+
+    def _stamp(self, node: bv.StampOf) -> str:
+        return f"at.stamp_ns({quoted(node.input.name)})"
+
+    def _time_in(self, node: bv.TimeIn) -> str:
+        text = self.text(node.value)
+        if node.type in (FLOAT, DOUBLE):
+            return f"({text} / {_grouped(node.nanoseconds)})"
+        return text if node.nanoseconds == 1 else f"({text} // {_grouped(node.nanoseconds)})"
 
     def _constant(self, node: bv.ConstantValue) -> str:
         if isinstance(node.type, Enum):
@@ -122,12 +105,11 @@ class ExpressionPrinter:
         return f"values.listed({', '.join(parts)})" if nested else f"[{', '.join(parts)}]"
 
     def _struct(self, node: bv.StructOf) -> str:
-        assert isinstance(node.type, Struct)
         fields = [
             f"{self._names.field(node.type, field)}={self.text(item)}"
-            for field, item in zip(node.type.fields, node.items, strict=True)
+            for field, item in zip(struct_of(node.type).fields, node.items, strict=True)
         ]
-        return f"{self._names.type_name(node.type)}({', '.join(fields)})"
+        return f"{self._names.type_name(struct_of(node.type))}({', '.join(fields)})"
 
     def _called(self, node: bv.Called) -> str:
         arguments = ", ".join(map(self.text, node.arguments))
@@ -219,3 +201,31 @@ def limits(type_: Primitive) -> tuple[int, int]:
 def _grouped(number: int) -> str:
     """`1_000_000`."""
     return f"{number:_}"
+
+
+_PRINTERS: dict[type[bv.Expression], Callable[[ExpressionPrinter, Any], str]] = {
+    bv.ConstantValue: ExpressionPrinter._constant,
+    bv.ListExpression: ExpressionPrinter._list,
+    bv.InputValue: ExpressionPrinter._input,
+    bv.HubValue: ExpressionPrinter._hub,
+    bv.RequestValue: ExpressionPrinter._request,
+    bv.ReplyValue: ExpressionPrinter._reply,
+    bv.FieldOf: ExpressionPrinter._field,
+    bv.ItemAt: ExpressionPrinter._item,
+    bv.Selected: ExpressionPrinter._selected,
+    bv.Sliced: ExpressionPrinter._sliced,
+    bv.LengthChecked: ExpressionPrinter._length_checked,
+    bv.Called: ExpressionPrinter._called,
+    bv.Arithmetic: ExpressionPrinter._arithmetic,
+    bv.Negated: ExpressionPrinter._negated,
+    bv.Converted: ExpressionPrinter._converted,
+    bv.NumberOf: ExpressionPrinter._value_function,
+    bv.TextOf: ExpressionPrinter._value_function,
+    bv.LengthOf: ExpressionPrinter._length,
+    bv.StampOf: ExpressionPrinter._stamp,
+    bv.Now: lambda _printer, _node: "at.now_ns",
+    bv.Counter: lambda _printer, _node: "at.counter",
+    bv.Cast: ExpressionPrinter._cast,
+    bv.TimeIn: ExpressionPrinter._time_in,
+    bv.StructOf: ExpressionPrinter._struct,
+}

@@ -59,7 +59,6 @@ def mapping_code(bridge: Bridge, names: BridgeNames) -> MappingCode:
     names.used.clear()
     functions = tuple(_functions(bridge, names))
     body = [line for function in functions for line in function.lines]
-    heads = [f"{f.parameters} {f.returns}" for f in functions]
     return MappingCode(
         printable(bridge.path.name),
         bridge.name,
@@ -270,7 +269,6 @@ def _stamp(item: BridgeInput, names: BridgeNames) -> MappingFunction:
 def _path(start: str, type_: Type, path: Sequence[Field], names: BridgeNames) -> str:
     text = start
     for field in path:
-        assert isinstance(type_, Struct)
         text += f".{names.field(type_, field)}"
         type_ = field.type
     return text

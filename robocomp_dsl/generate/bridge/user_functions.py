@@ -8,7 +8,7 @@ from __future__ import annotations
 from robocomp_dsl.diagnostics import Note
 from robocomp_dsl.generate import literals
 from robocomp_dsl.generate.bridge.bridge_names import BridgeNames
-from robocomp_dsl.generate.bridge.specification import function_arguments, function_doc
+from robocomp_dsl.generate.bridge.methods import function_arguments, function_doc
 from robocomp_dsl.generate.python.layout import BODY
 from robocomp_dsl.generate.python.worker import HandlerCode
 from robocomp_dsl.generate.regeneration.methods import Method, Signature

@@ -53,8 +53,9 @@ class OutputSpec:
     """An output: the published port and its operation.
 
     `build` gets a `MessageContext`, the worker, and for each hub the tuple of the values of its
-    messages; it returns the tuple of arguments to publish. `rate` in Hz, 0: a message whenever a hub is
-    ready anew. `places` has the place of each assigned field by its path, "" is that of the output.
+    messages; it returns the tuple of arguments to publish. `rate` in Hz, 0: a message whenever a
+    hub is ready anew. `places` has the place of each assigned field by its path, "" is that of the
+    output.
     """
 
     name: str

@@ -109,7 +109,7 @@ def integer(value: Any, low: int, high: int) -> int:
     """A number as an integer between `low` and `high`, rounded to the nearest one."""
     if isinstance(value, float) and not math.isfinite(value):
         raise DoesNotFit(f"{value!r} is not an integer")
-    whole = int(round(value))
+    whole: int = round(value)
     if not low <= whole <= high:
         raise DoesNotFit(f"{value!r} does not fit ({low} to {high})")
     return whole
@@ -145,4 +145,5 @@ def nanoseconds_of(value: Any, unit_ns: float) -> int:
     """A time stamp in ns; `unit_ns` is the length of its unit in ns."""
     if isinstance(value, float) and not math.isfinite(value):
         raise DoesNotFit(f"the time stamp {value!r} is no time")
-    return round(value * unit_ns)
+    nanoseconds: int = round(value * unit_ns)
+    return nanoseconds
