@@ -66,8 +66,13 @@ def bridge_files(
 
 def _worker(code: SpecificationCode, methods: dict[str, Method]) -> OutputFile:
     stubs = [method.code for method in methods.values()]
-    imports = sorted({name for method in methods.values() for name in method.types} - {"rt"})
-    context = {"code": code, "stubs": stubs, "imports": imports}
+    types = {name for method in methods.values() for name in method.types}
+    context = {
+        "code": code,
+        "stubs": stubs,
+        "imports": sorted(types - {"rt"}),
+        "uses_runtime_types": "rt" in types,
+    }
     return OutputFile(WORKER, render(f"{FOLDER}{WORKER}.jinja", **context), write_once=True)
 
 

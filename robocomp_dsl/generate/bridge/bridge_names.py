@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from robocomp_dsl.generate import names
 from robocomp_dsl.generate.python.component_names import PythonNames, names_of
-from robocomp_dsl.generate.python.python_types import field_names, numpy_of
+from robocomp_dsl.generate.python.python_types import NUMPY, field_names, numpy_of
 from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.model.bridge_ports import BridgePort
 from robocomp_dsl.model.component import Component
@@ -115,5 +115,9 @@ def element_dtype(type_: Type | object) -> str:
 
 def primitive_dtype(type_: Primitive) -> str:
     """The numpy type of a number."""
-    found = numpy_of(Sequence("", "", None, "", type_, is_anonymous=True))  # type: ignore[arg-type]
-    return found.dtype if found else ""
+    return NUMPY[type_].dtype
+
+
+def array_annotation(type_: Primitive) -> str:
+    """The annotation of an array of numbers."""
+    return NUMPY[type_].alias

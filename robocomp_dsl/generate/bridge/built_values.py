@@ -51,7 +51,7 @@ def value_lines(value: BuiltValue, variable: str, built: BuiltLines) -> str:
     root = built.prefix + ("" if built.single else value.param.name)
     if value.value is not None:
         built.locate(root, value.value)
-        text = built.printer.text(value.value)
+        text = built.printer.statement(value.value)
         is_shared = bool(value.assignments) and not isinstance(value.value, StructOf)
         built.lines.append(f"{variable} = {f'copy({text})' if is_shared else text}")
         copied: set[str] = {variable} if is_shared else set()
@@ -66,7 +66,7 @@ def value_lines(value: BuiltValue, variable: str, built: BuiltLines) -> str:
         built.locate(
             f"{root}.{shown}" if root and not root.endswith(".") else root + shown, assignment.value
         )
-        built.lines.append(f"{target} = {built.printer.text(assignment.value)}")
+        built.lines.append(f"{target} = {built.printer.statement(assignment.value)}")
     return variable
 
 

@@ -38,6 +38,10 @@ class ExpressionPrinter:
         """The expression as Python; an operand of any operator."""
         return _PRINTERS[type(node)](self, node)
 
+    def statement(self, node: bv.Expression) -> str:
+        """The expression as Python, as the right side of an assignment."""
+        return without_brackets(self.text(node))
+
     def _input(self, node: bv.InputValue) -> str:
         return self._locals[node.input.name, node.param.name]
 
@@ -73,7 +77,9 @@ class ExpressionPrinter:
         return f"(-{self.text(node.value)})"
 
     def _value_function(self, node: bv.NumberOf | bv.TextOf) -> str:
-        name = "number" if isinstance(node, bv.NumberOf) else "text"
+        name = "text"
+        if isinstance(node, bv.NumberOf):
+            name = "numbers" if node.is_list else "number"
         return f"values.{name}({self.text(node.value)})"
 
     def _length(self, node: bv.LengthOf) -> str:
@@ -196,6 +202,18 @@ def limits(type_: Primitive) -> tuple[int, int]:
     if type_.is_unsigned:
         return 0, 2**type_.bits - 1
     return -(2 ** (type_.bits - 1)), 2 ** (type_.bits - 1) - 1
+
+
+def without_brackets(text: str) -> str:
+    """`text` without a pair of parentheses around all of it."""
+    if not (text.startswith("(") and text.endswith(")")):
+        return text
+    depth = 0
+    for index, character in enumerate(text):
+        depth += (character == "(") - (character == ")")
+        if not depth and index < len(text) - 1:
+            return text
+    return text[1:-1]
 
 
 def _grouped(number: int) -> str:

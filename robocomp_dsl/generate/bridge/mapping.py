@@ -9,7 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from robocomp_dsl.generate.bridge.bridge_names import BridgeNames, primitive_dtype
+from robocomp_dsl.generate.bridge.bridge_names import (
+    BridgeNames,
+    array_annotation,
+    primitive_dtype,
+)
 from robocomp_dsl.generate.bridge.built_values import BuiltLines, value_lines
 from robocomp_dsl.generate.bridge.expressions import ExpressionPrinter
 from robocomp_dsl.generate.bridge.places import place
@@ -48,6 +52,7 @@ class MappingCode(ValueRecord):
     uses_numpy: bool
     uses_copy: bool
     uses_values: bool
+    uses_runtime_types: bool
 
     def function(self, name: str) -> MappingFunction:
         """The function called `name`."""
@@ -67,6 +72,7 @@ def mapping_code(bridge: Bridge, names: BridgeNames) -> MappingCode:
         any("np." in line for line in body),
         any("copy(" in line for line in body),
         any("values." in line for line in body),
+        any("rt." in f"{f.parameters} {f.returns}" for f in functions),
     )
 
 
@@ -122,7 +128,7 @@ def _hub(hub: BridgeHub, names: BridgeNames) -> MappingFunction:
     return MappingFunction(
         f"hub_{hub.name}",
         ", ".join(parameters),
-        "NDArray[Any]" if dtype else "list[Any]",
+        array_annotation(number) if number else "list[Any]",
         f"The items of the hub `{hub.name}` ({place(hub.span)}).",
         (*lines, f"return {result}"),
     )

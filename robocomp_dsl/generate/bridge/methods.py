@@ -27,6 +27,7 @@ class BridgeMethod(ValueRecord):
 
 
 def parameter_hooks(bridge: Bridge, groups: dict[str, str]) -> Iterator[BridgeMethod]:
+    """The hooks that apply changed parameters; `groups` are attributes of `params`."""
     for output in bridge.outputs:
         value = f"self.params.{groups[output.name]}.rate"
         yield _hook(
@@ -50,6 +51,7 @@ def _hook(name: str, what: str, lines: tuple[str, ...]) -> BridgeMethod:
 
 
 def handler_method(item: BridgeInput, bridge_names: BridgeNames) -> BridgeMethod:
+    """The method that receives the messages of an input."""
     arguments = _arguments(item.port.name, item.port.operation.name, bridge_names)
     value = ", ".join(name for name, _ in arguments)
     value = value if len(arguments) == 1 else f"({value})"
@@ -61,6 +63,7 @@ def handler_method(item: BridgeInput, bridge_names: BridgeNames) -> BridgeMethod
 
 
 def service_method(service: BridgeService, bridge_names: BridgeNames) -> BridgeMethod:
+    """The method that answers the requests of a service."""
     port = service.port
     arguments = _arguments(port.name, port.operation.name, bridge_names)
     types = bridge_names.python.types

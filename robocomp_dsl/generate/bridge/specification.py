@@ -49,6 +49,7 @@ class SpecificationCode(ValueRecord):
     settings: tuple[str, ...]
     methods: tuple[BridgeMethod, ...]
     functions: tuple[BridgeMethod, ...]
+    uses_runtime_types: bool
     imports: tuple[str, ...]
     classes: tuple[str, ...]
 
@@ -94,6 +95,7 @@ def specification_code(
         tuple(_settings(bridge, groups)),
         tuple(methods),
         functions,
+        any("rt." in f"{m.head}{m.lines}" for m in (*methods, *functions)),
         tuple(sorted(bridge_names.used)),
         tuple(sorted(["BridgeSpec", *(name for name, rows in lists.items() if rows)])),
     )

@@ -96,6 +96,13 @@ def number(value: Any) -> float:
         raise DoesNotFit(f"{value!r:.80} is not a number") from None
 
 
+def numbers(values: Any) -> NDArray[Any]:
+    """The numbers of a list of texts and numbers. Raises `DoesNotFit` for other texts."""
+    if isinstance(values, np.ndarray):
+        return values.astype(np.float64)
+    return np.array([number(value) for value in values], np.float64)
+
+
 def text(value: Any) -> str:
     """The shortest text of a number that reads as the same number; a text as it is."""
     if isinstance(value, np.generic):
