@@ -288,15 +288,3 @@ class ExpressionUse(ValueRecord):
     inputs: tuple[BridgeInput, ...] = ()
     hubs: tuple[BridgeHub, ...] = ()
     stamps: tuple[BridgeInput, ...] = ()
-
-
-def nodes_of(value: object) -> Iterator[Expression]:
-    """All expressions in a record or tuple of this module, at any depth; not those of hubs."""
-    if isinstance(value, tuple):
-        for item in value:
-            yield from nodes_of(item)
-    elif isinstance(value, (Expression, BuiltValue, FieldAssignment, BridgeCall)):
-        if isinstance(value, Expression):
-            yield value
-        for name in type(value).__match_args__:
-            yield from nodes_of(getattr(value, name))

@@ -21,7 +21,7 @@ from robocomp_dsl.generate.literals import printable, quoted
 from robocomp_dsl.generate.names import unique
 from robocomp_dsl.model.bridge import Bridge, BridgeOutput, BridgeService
 from robocomp_dsl.model.bridge_ports import BridgeInput
-from robocomp_dsl.model.bridge_values import BridgeHub
+from robocomp_dsl.model.bridge_values import BridgeHub, Expression, ListExpression
 from robocomp_dsl.model.interface import Operation, Param
 from robocomp_dsl.model.types import Field, Struct, Type
 from robocomp_dsl.model.units import parse_unit
@@ -117,13 +117,15 @@ def annotation_of(item: BridgeInput, names: BridgeNames) -> str:
 def _hub(hub: BridgeHub, names: BridgeNames) -> MappingFunction:
     local_names, lines = input_locals(hub.inputs, names)
     printer = ExpressionPrinter(names, local_names)
-    parts = [printer.text(value) for value in hub.values]
+    parts = [part for value in hub.values for part in _hub_parts(value, printer)]
     number = hub.type.number
     dtype = primitive_dtype(number) if number else ""
     if dtype:
         result = f"values.joined({', '.join((dtype, *parts))})"
     else:
         result = f"values.listed({', '.join(parts)})"
+    if hub.length is not None:
+        result = f"values.with_length({result}, {hub.length}, {hub.length})"
     parameters = [f"{names.variables[i.name]}: {annotation_of(i, names)}" for i in hub.inputs]
     return MappingFunction(
         f"hub_{hub.name}",
@@ -132,6 +134,16 @@ def _hub(hub: BridgeHub, names: BridgeNames) -> MappingFunction:
         f"The items of the hub `{hub.name}` ({place(hub.span)}).",
         (*lines, f"return {result}"),
     )
+
+
+def _hub_parts(value: Expression, printer: ExpressionPrinter) -> Iterator[str]:
+    """One value of a hub; the items of a list expression are not joined any further."""
+    if not isinstance(value, ListExpression):
+        yield printer.text(value)
+        return
+    for item in value.items:
+        text = printer.text(item)
+        yield f"[{text}]" if item.is_list else text
 
 
 def _output(output: BridgeOutput, names: BridgeNames) -> MappingFunction:

@@ -5,7 +5,7 @@ In: a bridge, its names, wiring and mapping. Out: plain data for the template.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from robocomp_dsl.generate import literals, names
 from robocomp_dsl.generate.bridge.bridge_names import BridgeNames
@@ -25,9 +25,10 @@ from robocomp_dsl.model.bridge import Bridge, BridgeOutput, BridgeService
 from robocomp_dsl.model.bridge_ports import BridgeInput
 from robocomp_dsl.model.bridge_values import (
     BridgeHub,
+    BuiltValue,
+    Expression,
     HubPolicy,
     StampOf,
-    nodes_of,
 )
 from robocomp_dsl.record import ValueRecord
 
@@ -127,11 +128,22 @@ def _stamped(bridge: Bridge) -> Iterator[str]:
             yield from (item.name for item in hub.inputs)
     for output in bridge.outputs:
         yield from (item.name for item in output.uses.stamps)
-    built = [output.arguments for output in bridge.outputs]
-    built += [service.reply for service in bridge.services]
-    parts = (*built, *(service.calls for service in bridge.services))
-    nodes = (node for part in parts for node in nodes_of(part))
-    yield from (node.input.name for node in nodes if isinstance(node, StampOf))
+    built = [value for output in bridge.outputs for value in output.arguments]
+    for service in bridge.services:
+        built += [*service.reply, *(value for call in service.calls for value in call.arguments)]
+    for node in nodes_of(built):
+        if isinstance(node, StampOf):
+            yield node.input.name
+
+
+def nodes_of(built: Iterable[BuiltValue]) -> Iterator[Expression]:
+    """All nodes of the expressions of some values."""
+    for value in built:
+        expressions = [assignment.value for assignment in value.assignments]
+        if value.value is not None:
+            expressions.append(value.value)
+        for expression in expressions:
+            yield from expression.walk()
 
 
 def _input(item: BridgeInput, stamped: set[str]) -> str:
@@ -171,7 +183,6 @@ def _hub(hub: BridgeHub) -> str:
         parts.append(quoted(hub.policy.value))
     values = {"tolerance": hub.tolerance_s, "max_age": hub.max_age_s}
     parts += [f"{key}={python_value(float(value))}" for key, value in values.items() if value]
-    parts += [f"length={hub.length}"] if hub.length else []
     return f"HubSpec({', '.join(parts)})"
 
 

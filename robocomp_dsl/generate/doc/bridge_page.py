@@ -31,7 +31,6 @@ from robocomp_dsl.model.bridge_values import (
     Converted,
     Expression,
     HubPolicy,
-    nodes_of,
 )
 from robocomp_dsl.model.interface import Param
 from robocomp_dsl.model.types import Field
@@ -165,7 +164,7 @@ def _fields(name: str, arguments: Sequence[BuiltValue]) -> Iterator[TableRow]:
 def _field(name: str, path: str, value: Expression) -> TableRow:
     units = dict.fromkeys(
         f"{node.value.unit or '?'} → {node.unit}"
-        for node in nodes_of(value)
+        for node in value.walk()
         if isinstance(node, Converted)
     )
     text = inline_code(" ".join(value.span.text.split()))
