@@ -133,15 +133,3 @@ def test_hub_queue_is_bounded_in_burst_of_one_input(policy: Policy) -> None:
         run.add(0, number / 1000)
     assert run.drops == {hubs.QUEUE_FULL: 1000 - hubs.QUEUE_LENGTH}
     assert run.hub.missing() == ["b"]
-
-
-def test_hub_queue_has_the_length_of_its_specification() -> None:
-    drops: list[str] = []
-    spec = HubSpec("hub", ("a", "b"), "", "all", length=2)
-    hub = hub_of(spec, lambda _index, reason: drops.append(reason))
-    for number in range(5):
-        hub.add(0, ReceivedMessage(number, 0, 0.0, 0))
-    assert len(drops) == 3
-    assert hub.add(1, ReceivedMessage("b", 0, 0.0, 0))
-    assert hub.messages is not None
-    assert [message.value for message in hub.messages] == [3, "b"]

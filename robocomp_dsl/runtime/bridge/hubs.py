@@ -83,7 +83,6 @@ class QueueHub:
         self._drop = drop
         self._queues: list[deque[ReceivedMessage]] = [deque() for _ in spec.inputs]
         self._empty = len(spec.inputs)
-        self._length = spec.length or QUEUE_LENGTH
 
     def missing(self) -> list[str]:
         """The inputs without a waiting message."""
@@ -108,7 +107,7 @@ class AllHub(QueueHub):
     def add(self, index: int, message: ReceivedMessage) -> bool:
         """Take a message of an input; returns whether there is a new set."""
         queue = self._queues[index]
-        if len(queue) == self._length:
+        if len(queue) == QUEUE_LENGTH:
             self._take(index)
             self._drop(index, QUEUE_FULL)
         self._empty -= not queue
@@ -145,7 +144,7 @@ class SynchronisedHub(QueueHub):
             self._discard_newer(index, stamp)
             self._newest_stamp[index] = stamp
         queue = self._queues[index]
-        if len(queue) == self._length:
+        if len(queue) == QUEUE_LENGTH:
             self._take(index)
             self._drop(index, QUEUE_FULL)
         self._empty -= not queue

@@ -34,7 +34,6 @@ class InputSpec:
 class HubSpec:
     """A hub over some inputs. `tolerance` and `max_age` in s; `max_age` 0: no limit.
 
-    `length` is the number of messages that it holds for each input; 0: `hubs.QUEUE_LENGTH`.
     `is_passive`: it does not cause outputs to be sent, they only read it.
     """
 
@@ -44,7 +43,6 @@ class HubSpec:
     policy: Policy = "latest"
     tolerance: float = 0.0
     max_age: float = 0.0
-    length: int = 0
     is_passive: bool = False
 
 
