@@ -9,7 +9,7 @@ from robocomp_dsl.generate.bridge.expressions import ExpressionPrinter
 from robocomp_dsl.generate.bridge.places import place
 from robocomp_dsl.generate.literals import quoted
 from robocomp_dsl.generate.python.python_types import record_element
-from robocomp_dsl.model.bridge_values import BuiltValue, Expression, StructOf
+from robocomp_dsl.model.bridge_values import BuiltValue, ConstantValue, Expression, StructOf
 from robocomp_dsl.model.types import (
     BOOL,
     DOUBLE,
@@ -41,8 +41,9 @@ class BuiltLines:
         self.places: list[tuple[str, str]] = []
 
     def locate(self, path: str, expression: Expression) -> None:
-        """Note which field is computed next, for messages about errors."""
-        self.lines.append(f"at.field = {quoted(path)}")
+        """Note which field is computed next, for messages about errors; a constant never fails."""
+        if not isinstance(expression, ConstantValue):
+            self.lines.append(f"at.field = {quoted(path)}")
         self.places.append((path, place(expression.span)))
 
 

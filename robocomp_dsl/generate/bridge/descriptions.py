@@ -134,7 +134,7 @@ def _parameter_groups(bridge: Bridge) -> Iterator[tuple[str, str, list[tuple[str
             )
         ]
         if hub.policy is HubPolicy.SYNCHRONISED:
-            comment = "The largest difference of the time stamps of messages that belong together."
+            comment = "The largest difference of time stamps in one set."
             line = f"tolerance float {hub.tolerance_s:g} [s] 0:3600 live;"
             members.insert(0, (comment, line))
         yield hub.name, f"The hub `{hub.name}`.", members

@@ -39,7 +39,7 @@ class ExpressionPrinter:
         return _PRINTERS[type(node)](self, node)
 
     def statement(self, node: bv.Expression) -> str:
-        """The expression as Python, as the right side of an assignment."""
+        """The expression as Python where no operator is beside it."""
         return without_brackets(self.text(node))
 
     def _input(self, node: bv.InputValue) -> str:
@@ -80,7 +80,7 @@ class ExpressionPrinter:
         name = "text"
         if isinstance(node, bv.NumberOf):
             name = "numbers" if node.is_list else "number"
-        return f"values.{name}({self.text(node.value)})"
+        return f"values.{name}({self.statement(node.value)})"
 
     def _length(self, node: bv.LengthOf) -> str:
         return f"len({self.text(node.value)})"
@@ -102,7 +102,7 @@ class ExpressionPrinter:
 
     def _list(self, node: bv.ListExpression) -> str:
         dtype = _dtype(node)
-        parts = [self.text(item) for item in node.items]
+        parts = [self.statement(item) for item in node.items]
         nested = any(item.is_list for item in node.items) and not _is_list_of_lists(node)
         if dtype:
             if nested:
@@ -112,13 +112,13 @@ class ExpressionPrinter:
 
     def _struct(self, node: bv.StructOf) -> str:
         fields = [
-            f"{self._names.field(node.type, field)}={self.text(item)}"
+            f"{self._names.field(node.type, field)}={self.statement(item)}"
             for field, item in zip(struct_of(node.type).fields, node.items, strict=True)
         ]
         return f"{self._names.type_name(struct_of(node.type))}({', '.join(fields)})"
 
     def _called(self, node: bv.Called) -> str:
-        arguments = ", ".join(map(self.text, node.arguments))
+        arguments = ", ".join(map(self.statement, node.arguments))
         call = f"user.{self._names.variables[node.function.name]}({arguments})"
         dtype = element_dtype(node.type)
         return f"np.asarray({call}, {dtype})" if dtype else call

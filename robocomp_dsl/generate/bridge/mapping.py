@@ -20,10 +20,11 @@ from robocomp_dsl.generate.bridge.places import place
 from robocomp_dsl.generate.literals import printable, quoted
 from robocomp_dsl.generate.names import unique
 from robocomp_dsl.model.bridge import Bridge, BridgeOutput, BridgeService
-from robocomp_dsl.model.bridge_ports import BridgeInput
+from robocomp_dsl.model.bridge_ports import BridgeInput, LengthCheck
 from robocomp_dsl.model.bridge_values import BridgeHub, Expression, ListExpression
 from robocomp_dsl.model.interface import Operation, Param
 from robocomp_dsl.model.types import Field, Struct, Type
+from robocomp_dsl.model.types import Sequence as SequenceType
 from robocomp_dsl.model.units import parse_unit
 from robocomp_dsl.record import ValueRecord
 
@@ -78,7 +79,7 @@ def mapping_code(bridge: Bridge, names: BridgeNames) -> MappingCode:
 
 def _functions(bridge: Bridge, names: BridgeNames) -> Iterator[MappingFunction]:
     for item in bridge.inputs:
-        if item.length_checks:
+        if own_checks(item):
             yield _check(item, names)
         if item.stamp_path:
             yield _stamp(item, names)
@@ -106,6 +107,16 @@ def input_locals(
         found |= {(item.name, p.name): part for p, part in zip(parameters, parts, strict=True)}
         lines.append(f"{', '.join(parts)} = {variable}")
     return found, lines
+
+
+def own_checks(item: BridgeInput) -> tuple[LengthCheck, ...]:
+    """The lengths that the bridge declares; a codec checks those of ROS definitions."""
+    return tuple(check for check in item.length_checks if not _is_fixed_array(check))
+
+
+def _is_fixed_array(check: LengthCheck) -> bool:
+    type_ = check.path[-1].type if check.path else None
+    return isinstance(type_, SequenceType) and type_.is_anonymous
 
 
 def annotation_of(item: BridgeInput, names: BridgeNames) -> str:
@@ -139,10 +150,10 @@ def _hub(hub: BridgeHub, names: BridgeNames) -> MappingFunction:
 def _hub_parts(value: Expression, printer: ExpressionPrinter) -> Iterator[str]:
     """One value of a hub; the items of a list expression are not joined any further."""
     if not isinstance(value, ListExpression):
-        yield printer.text(value)
+        yield printer.statement(value)
         return
     for item in value.items:
-        text = printer.text(item)
+        text = printer.statement(item)
         yield f"[{text}]" if item.is_list else text
 
 
@@ -249,7 +260,7 @@ def _results(operation: Operation) -> list[tuple[str, Type]]:
 def _check(item: BridgeInput, names: BridgeNames) -> MappingFunction:
     first = "message" if len(item.parameters) == 1 else "message[0]"
     lines = []
-    for check in item.length_checks:
+    for check in own_checks(item):
         path = _path(first, item.parameters[0].type, check.path, names)
         lines.append(f"values.with_length({path}, {check.length}, {check.length})")
     return MappingFunction(

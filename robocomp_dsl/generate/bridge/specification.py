@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 
 from robocomp_dsl.generate import literals, names
 from robocomp_dsl.generate.bridge.bridge_names import BridgeNames
-from robocomp_dsl.generate.bridge.mapping import MappingCode
+from robocomp_dsl.generate.bridge.mapping import MappingCode, own_checks
 from robocomp_dsl.generate.bridge.methods import (
     BridgeMethod,
     function_method,
@@ -152,7 +152,7 @@ def _input(item: BridgeInput, stamped: set[str]) -> str:
     if item.name in stamped:
         parts += [f"stamp=mapping.stamp_{item.name}"] if item.stamp_path else []
         parts += ["needs_stamp=True"]
-    if item.length_checks:
+    if own_checks(item):
         parts.append(f"check=mapping.check_{item.name}")
     return f"InputSpec({', '.join(parts)})"
 
