@@ -45,7 +45,7 @@ class Version:
                     self.add(module)
             case Module():
                 self.declarations |= {d.qualified: d for d in model.declarations}
-                definitions = (m for m in model.closure() if m.is_ros and m is not model)
+                definitions = (m for m in model.closure() if m.origin and m is not model)
                 self.ros |= {d.qualified: d for m in definitions for d in m.declarations}
 
 

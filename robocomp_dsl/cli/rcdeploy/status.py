@@ -95,8 +95,8 @@ def _report(deployment: instances.RunningDeployment) -> DeploymentReport:
             EXIT_FINDINGS, f"`{deployment.name}` does not answer; it may be ending"
         ) from None
     rows = [status.ProcessStatus.from_dict(row) for row in answer["rows"]]
-    externals = [ExternalProgram.from_dict(fields) for fields in answer["externals"]]
-    links = [ConnectionStatus(**link) for link in answer["connections"]]
+    externals = [ExternalProgram.from_dict(fields) for fields in answer.get("externals", ())]
+    links = [ConnectionStatus(**link) for link in answer.get("connections", ())]
     rows = _with_component_state(deployment, rows)
     return DeploymentReport(deployment, rows, answer["clock"], externals, links)
 

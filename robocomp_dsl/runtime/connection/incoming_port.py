@@ -21,6 +21,7 @@ from robocomp_dsl.runtime.component.statistics import OperationCounts, Statistic
 from robocomp_dsl.runtime.component.thread_priority import ThreadPriority
 from robocomp_dsl.runtime.component.user_errors import log_failure
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.message_stamp import with_header_stamp
 from robocomp_dsl.runtime.connection.ports import OperationCallable
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, RejectedByReceiver, Timeout
 
@@ -65,7 +66,7 @@ class IncomingOperation:
         self.losses = losses
         self.numbers: deque[bytes] = losses.pending if losses else deque(maxlen=1)
         self.counts: OperationCounts = port.statistics.of(port.at.port, operation.name)
-        self._handler = handler
+        self._handler = with_header_stamp(operation, handler)
         self.handle: Handle = self._handle()
 
     def _handle(self) -> Handle:

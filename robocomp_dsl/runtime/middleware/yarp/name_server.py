@@ -38,9 +38,11 @@ class NameReceiver:
     def __init__(self, table: RegistrationTable) -> None:
         self._table = table
 
-    def receive(self, bottle: Bottle, size: int, *, wants_reply: bool) -> Bottle | None:
+    def receive(
+        self, bottle: Bottle, size: int, envelope: str, *, wants_reply: bool
+    ) -> Bottle | None:
         """See `port.Receiver`."""
-        del size, wants_reply
+        del size, envelope, wants_reply
         words = [item if isinstance(item, str) else write_value(item) for item in as_items(bottle)]
         if words[:1] == [_PREFIX]:
             words = words[1:]
