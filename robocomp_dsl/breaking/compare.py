@@ -50,7 +50,7 @@ class Version:
 
 
 def compare(old: Version, new: Version, deployments: Iterable[Deployment], report: Report) -> None:
-    """Report all breaking changes; `deployments` are the current ones that may be affected."""
+    """Report all breaking changes; `deployments` are those that may be affected."""
     changes = Changes(report)
     # A definition that is no longer imported matters only to operations, which are compared.
     ros = old.ros.keys() & new.ros.keys()

@@ -60,7 +60,7 @@ class ImportScope:
         self._missing_packages = {w.partition("/")[0] for w in missing if is_ros_import(w)}
 
     def lookup(self, name: QualifiedName, kind: type[Kind]) -> list[Kind]:
-        """The declarations called `name`; direct imports shadow indirect ones."""
+        """The declarations called `name`; direct imports shadow indirect imports."""
         module = name.module.text if name.module else None
         found = [
             (imported, declaration)
