@@ -43,8 +43,8 @@ class Master:
         """The variables of programs that use this master."""
         folder = str(self._folder)
         removed = ("PYTHONPATH", "VIRTUAL_ENV", "ROS_IP")
-        kept = {key: value for key, value in os.environ.items() if key not in removed}
-        return kept | {
+        variables = {key: value for key, value in os.environ.items() if key not in removed}
+        return variables | {
             "ROS_MASTER_URI": self.uri,
             "ROS_HOSTNAME": LOOPBACK,
             "ROS_HOME": folder,

@@ -17,7 +17,7 @@ from robocomp_dsl.runtime.errors import MalformedMessage, MiddlewareError
 from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.handshake import exchange_headers
 from robocomp_dsl.runtime.middleware.ros1.settings import read_settings
-from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, Stream, encode_header, parse_header
+from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, TcprosStream, encode_header, parse_header
 from robocomp_dsl.runtime.middleware.ros1.xmlrpc import RosApi, RosApiError
 from tests.middleware.ros1.conftest import Ros1Network
 from tests.middleware.ros2.ros_messages import (
@@ -47,11 +47,11 @@ def node_of(component: RosComponent) -> Any:
     return transport.node
 
 
-def opened(component: RosComponent) -> Stream:
+def opened(component: RosComponent) -> TcprosStream:
     return tcpros.connect("127.0.0.1", node_of(component).listener.number, TIMEOUT_S)
 
 
-def ends(stream: Stream) -> bool:
+def ends(stream: TcprosStream) -> bool:
     """Whether the node ends the connection; it may send a reason first."""
     stream.socket.settimeout(TIMEOUT_S)
     try:
@@ -259,6 +259,20 @@ def test_settings_refuse_address_of_master(text: str) -> None:
         read_settings({"master": text}, {})
     with pytest.raises(MiddlewareError, match="ROS_MASTER_URI"):
         read_settings({}, {"ROS_MASTER_URI": text})
+
+
+@pytest.mark.parametrize(
+    ("master", "host", "unreachable"),
+    [
+        ("http://10.0.0.2:11311", "", True),
+        ("http://10.0.0.2:11311", "10.0.0.3", False),
+        ("http://localhost:11311", "", False),
+    ],
+)
+def test_settings_tell_whether_a_remote_master_cannot_reach_the_node(
+    master: str, host: str, unreachable: bool
+) -> None:
+    assert read_settings({"master": master, "host": host}, {}).is_unreachable is unreachable
 
 
 def test_settings_are_those_of_ros_by_default() -> None:

@@ -208,8 +208,8 @@ def test_topics_of_other_types_are_reported(
 def test_command_of_a_served_port_is_a_topic(component: Open, rospy: RospyPeer) -> None:
     texts: list[str] = []
     base = component("base", Base="/robot")
-    said = lambda text: texts.append(text.data)  # noqa: E731
-    idle = {"enable": answer, "stop": lambda _: TriggerResponse(), "say": said}
+    say = lambda text: texts.append(text.data)  # noqa: E731
+    idle = {"enable": answer, "stop": lambda _: TriggerResponse(), "say": say}
     base.serve(BASE, idle, "Base")
     rospy.command("advertise", "/robot/say", "std_msgs/String")
     wait_until(lambda: rospy.command("connections", "/robot/say"))
