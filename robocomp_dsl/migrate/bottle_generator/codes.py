@@ -1,4 +1,4 @@
-"""RC98x: the findings of a configuration of yarp-bottle-generator.
+"""RC99x: the findings of a configuration of yarp-bottle-generator.
 
 An error: the original does something else than the file says, or cannot build its program. A
 warning: the file is unusual, but has one meaning only.
@@ -9,7 +9,7 @@ from __future__ import annotations
 from robocomp_dsl.diagnostics import Code, Severity
 
 INVALID_LINE = Code(
-    "RC981",
+    "RC991",
     Severity.ERROR,
     "invalid line in a configuration of yarp-bottle-generator",
     """\
@@ -31,7 +31,7 @@ Right:
 )
 
 INVALID_VALUE = Code(
-    "RC982",
+    "RC992",
     Severity.ERROR,
     "invalid value in a configuration of yarp-bottle-generator",
     """\
@@ -53,7 +53,7 @@ Right:
 )
 
 MISSING_KEY = Code(
-    "RC983",
+    "RC993",
     Severity.ERROR,
     "a key or section is missing",
     """\
@@ -64,7 +64,7 @@ for each N from 1 to num_fields.
 )
 
 ASSUMED_KEY = Code(
-    "RC984",
+    "RC994",
     Severity.WARNING,
     "a missing key has one possible value only",
     """\
@@ -74,7 +74,7 @@ ros_msg_name. The value is clear from the rest of the file; write it, so that a 
 )
 
 COUNT_MISMATCH = Code(
-    "RC985",
+    "RC995",
     Severity.ERROR,
     "a number does not match what the file lists",
     """\
@@ -96,7 +96,7 @@ Right:
 )
 
 INVALID_FIELD = Code(
-    "RC986",
+    "RC996",
     Severity.ERROR,
     "invalid field of a message",
     """\
@@ -121,7 +121,7 @@ Right:
 )
 
 INVALID_LITERAL = Code(
-    "RC987",
+    "RC997",
     Severity.ERROR,
     "invalid constant",
     """\
@@ -144,7 +144,7 @@ Right:
 )
 
 DIRECTION = Code(
-    "RC988",
+    "RC998",
     Severity.ERROR,
     "inputs and output belong to the same middleware",
     """\
@@ -158,7 +158,7 @@ its output. A bridge in BDSL joins any two middlewares:
 )
 
 MESSAGE_TYPE = Code(
-    "RC989",
+    "RC999",
     Severity.ERROR,
     "the fields do not fit the type of the ROS message",
     """\

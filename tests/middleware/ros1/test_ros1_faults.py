@@ -17,7 +17,12 @@ from robocomp_dsl.runtime.errors import MalformedMessage, MiddlewareError
 from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.handshake import exchange_headers
 from robocomp_dsl.runtime.middleware.ros1.settings import read_settings
-from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, TcprosStream, encode_header, parse_header
+from robocomp_dsl.runtime.middleware.ros1.tcpros import (
+    LENGTH,
+    TcprosStream,
+    encode_header,
+    parse_header,
+)
 from robocomp_dsl.runtime.middleware.ros1.xmlrpc import RosApi, RosApiError
 from tests.middleware.ros1.conftest import Ros1Network
 from tests.middleware.ros2.ros_messages import (

@@ -122,7 +122,9 @@ class Ros1Client:
             stream.deadline = deadline
             return stream
 
-    def _open(self, header: dict[str, str], what: str, deadline: float, timeout: float) -> TcprosStream:
+    def _open(
+        self, header: dict[str, str], what: str, deadline: float, timeout: float
+    ) -> TcprosStream:
         """A new connection whose peer has accepted `header`."""
         host, number = self._address.host, self._address.number
         if not number:

@@ -19,7 +19,9 @@ class Refused(PeerLost):
     """The peer does not accept the connection, for a reason that it tells."""
 
 
-def exchange_headers(stream: TcprosStream, header: dict[str, str], timeout: float) -> dict[str, str]:
+def exchange_headers(
+    stream: TcprosStream, header: dict[str, str], timeout: float
+) -> dict[str, str]:
     """Send a header and read that of the peer. Raises `PeerLost`, `Refused` if it refuses."""
     stream.deadline = time.monotonic() + timeout
     stream.send(tcpros.encode_header(header))

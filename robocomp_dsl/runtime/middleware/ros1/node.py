@@ -48,7 +48,9 @@ class RosNode:
             raise
         self.api_uri = self._api.uri
         service_uri = f"rosrpc://{settings.host}:{self.listener.number}"
-        self.registration = MasterRegistration(self.name, self._api.uri, service_uri, settings.master)
+        self.registration = MasterRegistration(
+            self.name, self._api.uri, service_uri, settings.master
+        )
 
     def add_publication(self, publication: Publication) -> None:
         """Publish a topic. Raises `MiddlewareError` if the node publishes it already."""
