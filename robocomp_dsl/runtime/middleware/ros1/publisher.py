@@ -16,9 +16,9 @@ from robocomp_dsl.runtime.middleware.ros1.description import MIDDLEWARE
 from robocomp_dsl.runtime.middleware.ros1.handshake import exchange_headers
 from robocomp_dsl.runtime.middleware.ros1.node import RosNode
 from robocomp_dsl.runtime.middleware.ros1.operations import topic_of
-from robocomp_dsl.runtime.middleware.ros1.subscriber_link import SubscriberLink
 from robocomp_dsl.runtime.middleware.ros1.port_receiver import frame, port_header
 from robocomp_dsl.runtime.middleware.ros1.publication import Publication
+from robocomp_dsl.runtime.middleware.ros1.subscriber_link import SubscriberLink
 from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
 from robocomp_dsl.runtime.middleware.transport import BoundOperation
 from robocomp_dsl.runtime.presence.port_record import PortRecord
