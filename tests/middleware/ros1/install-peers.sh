@@ -4,7 +4,7 @@
 set -euo pipefail
 
 missing=()
-for program in rosmaster rosnode rostopic rosservice; do
+for program in rosbag rosmaster rosnode rosparam rostopic rosservice; do
   [ -e "/usr/bin/$program" ] || missing+=("$program")
 done
 /usr/bin/python3 -c 'import rospy, genpy, sensor_msgs, std_srvs' 2> /dev/null || missing+=(rospy)

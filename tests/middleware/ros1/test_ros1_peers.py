@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -235,6 +236,46 @@ def test_tools_of_ros_show_and_call_a_component(
     assert "std_msgs/String" in master.run("rostopic", "info", f"{name}/Chat")
     assert "success: True" in master.run("rosservice", "call", f"{name}/Switch", "true")
     assert "no light" in master.run("rosservice", "call", f"{name}/Switch", "false")
+
+
+def test_tools_of_ros_echo_publish_and_end_a_component(
+    component: Open, master: Master, rospy: RospyPeer
+) -> None:
+    texts: list[str] = []
+    base = component("base")
+    base.subscribe(CHAT, lambda text: texts.append(text.data), "Ear", "/told")
+    publish, _ = base.publisher(CHAT, "Chat", qos=Qos(latched=True))
+    publish(String("shown"))
+    topic = f"/{base.name}/Chat"
+    wait_until(lambda: master.nodes_of(0, topic))
+    assert "shown" in master.run("rostopic", "echo", "-n", "1", topic)
+    master.run("rostopic", "pub", "-1", "/told", "std_msgs/String", "data: typed")
+    wait_until(lambda: texts == ["typed"])
+    assert "xmlrpc reply" in master.run("rosnode", "ping", "-c", "1", f"/{base.name}")
+    assert "killed" in master.run("rosnode", "kill", f"/{base.name}")
+    wait_until(lambda: base.failures)
+    assert "asked the ROS node" in base.failures[0]
+
+
+@pytest.mark.skipif(
+    not Path("/usr/bin/rosbag").exists(), reason="needs rosbag: `make test-peers` installs it"
+)
+def test_roscpp_records_and_plays_messages(
+    component: Open, master: Master, rospy: RospyPeer, tmp_path: Path
+) -> None:
+    base = component("base")
+    publish, _ = base.publisher(SCAN, "Scan", qos=Qos(latched=True))
+    publish(LaserScan(Header(Time(5, 6), "laser"), ranges=[1.5]))
+    topic, bag = f"/{base.name}/Scan", str(tmp_path / "scan.bag")
+    wait_until(lambda: master.nodes_of(0, topic))
+    master.run("rosbag", "record", "-l", "1", "-O", bag, topic)
+    scans: list[LaserScan] = []
+    component("viewer").subscribe(SCAN, scans.append, "Scan", "/played")
+    wait_until(lambda: master.nodes_of(1, "/played"))
+    master.run("rosbag", "play", "--wait-for-subscribers", bag, f"{topic}:=/played")
+    wait_until(lambda: scans)
+    assert scans[0].header == Header(Time(5, 6), "laser")
+    assert scans[0].ranges.tolist() == [1.5]
 
 
 def test_topic_type_asks_the_master(component: Open, master: Master, rospy: RospyPeer) -> None:

@@ -6,6 +6,7 @@ again after the connection was lost, as long as the master knows the publisher.
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from collections.abc import Sequence
 from urllib.parse import urlsplit
@@ -52,16 +53,18 @@ class TopicSubscription:
             pause = RETRY_S
             try:
                 stream, peer = self._connect(uri)
-                is_reported = False
-                self.receiver.receive(stream, peer)
             except Refused as error:
-                self.receiver.warn(f"refused {uri}", "%s at %s: %s", "the publisher", uri, error)
+                self.receiver.warn(f"refused {uri}", "the publisher at %s: %s", uri, error)
                 pause = 4 * RETRY_S
             except (PeerLost, RosApiError) as error:
                 if not is_reported and not self._is_ended(uri):
                     is_reported = True
                     name = self.receiver.topic.name
                     self.receiver.warn(uri, "no connection to a publisher of %s: %s", name, error)
+            else:
+                is_reported = False
+                with contextlib.suppress(PeerLost):  # a publisher that ends
+                    self.receiver.receive(stream, peer)
             with self._changed:
                 self._changed.wait_for(lambda: self._is_ended(uri), pause)
                 if self._is_ended(uri):
