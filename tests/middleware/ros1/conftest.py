@@ -6,9 +6,7 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from tests.middleware.ros1.ros1_peers import Master, RospyPeer
-from tests.middleware.ros2.ros_network import RosComponent, RosNetwork
-
-NO_MASTER = "http://127.0.0.1:9"
+from tests.middleware.ros2.ros_network import NO_MASTER, RosComponent, RosNetwork
 
 
 class Ros1Network(RosNetwork):
