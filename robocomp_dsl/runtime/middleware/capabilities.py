@@ -32,6 +32,7 @@ class Capabilities:
     `external_port_names`: a regular expression for ports of programs that it can connect with each
     other; empty: it connects none.
     `ros_types_only`: it carries messages and services of ROS only, from `.msg` and `.srv` files.
+    `external_ros_types`: components exchange any types, programs that are no components those only.
     """
 
     between_processes: bool = True
@@ -49,6 +50,7 @@ class Capabilities:
     valid_names: str = ""
     external_port_names: str = ""
     ros_types_only: bool = False
+    external_ros_types: bool = False
 
 
 @dataclass(frozen=True, slots=True)
