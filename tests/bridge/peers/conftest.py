@@ -23,7 +23,7 @@ def master(tmp_path: Path) -> Iterator[Master]:
 
 @pytest.fixture
 def node(master: Master) -> Iterator[RospyPeer]:
-    peer = RospyPeer(master, "lab")
+    peer = RospyPeer(master, "robot")
     yield peer
     peer.close()
 

@@ -255,7 +255,7 @@ def test_parse_header_is_the_inverse_of_encode_header() -> None:
 
 @pytest.mark.parametrize("text", ["127.0.0.1:11311", "http://", "https://a:1", "http://a:x"])
 def test_settings_refuse_address_of_master(text: str) -> None:
-    with pytest.raises(MiddlewareError, match="^ros1"):
+    with pytest.raises(MiddlewareError, match=r"^ros1"):
         read_settings({"master": text}, {})
     with pytest.raises(MiddlewareError, match="ROS_MASTER_URI"):
         read_settings({}, {"ROS_MASTER_URI": text})
