@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from robocomp_dsl.check.bdsl.context import BridgeContext
-from robocomp_dsl.check.bdsl.fit_numbers import type_text
 from robocomp_dsl.check.bdsl.items import groups_of
+from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.bdsl.units import convert, parsed
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.model.bridge_ports import TIME, ItemGroup, ItemsType, common_number
@@ -67,7 +67,7 @@ def _number_type(value: Expression, operator: str, context: BridgeContext) -> Pr
     numbers = [type_ for type_ in types if isinstance(type_, Primitive) and type_ in NUMBERS]
     if not numbers or len(numbers) != len(types):
         found = next((type_ for type_ in types if type_ not in NUMBERS), value.type)
-        message = f"`{operator}` calculates with numbers; this is a `{type_text(found)}`"
+        message = f"`{operator}` calculates with numbers; this is {a_type(found)}"
         is_text = isinstance(found, Primitive) and found.is_text
         help_ = f"`number({value.span.text})` converts" if is_text else ""
         context.fail(codes.INVALID_ARITHMETIC, value.span, message, help_)
@@ -97,4 +97,5 @@ def _product_unit(
         return left.unit
     if node.operator == "*":
         return f"{left.unit} {right.unit}" if left.unit else right.unit
-    return f"{left.unit or '1'}/({right.unit})"
+    divisor = right.unit if right.unit.isalpha() else f"({right.unit})"
+    return f"{left.unit or '1'}/{divisor}"

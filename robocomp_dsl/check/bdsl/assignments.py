@@ -34,14 +34,15 @@ def build_values(
     is_valid = True
     for tree in trees:
         path = field_path(tree.path, params, scope.context)
-        target = path.target if path else None
-        value = value_for(tree.value, target, scope) if target else None
-        if path is None or value is None:
+        if path is None:
             is_valid = False
             continue
         is_valid &= _is_first(tree, path, resolved, scope.context.report)
         resolved.append((tree, path))
-        if path.parts:
+        value = value_for(tree.value, path.target, scope)
+        if value is None:
+            is_valid = False
+        elif path.parts:
             fields[path.param.name].append(FieldAssignment(path.parts, value))
         else:
             values[path.param.name] = value

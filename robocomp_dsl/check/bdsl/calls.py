@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from robocomp_dsl.check.bdsl.context import BridgeContext
-from robocomp_dsl.check.bdsl.fit_numbers import type_text
 from robocomp_dsl.check.bdsl.fitting import fit_all
 from robocomp_dsl.check.bdsl.items import groups_of, length_of
 from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.model.bridge_ports import TIME, BridgeFunction, ItemGroup, ItemsType, ValueType
 from robocomp_dsl.model.bridge_values import Called, Expression, LengthOf, NumberOf, TextOf
@@ -57,6 +57,6 @@ def _is_convertible(type_: ValueType) -> bool:
 
 
 def _reject(node: ast.FunctionCall, value: Expression, takes: str, context: BridgeContext) -> None:
-    found = "a list" if value.is_list else f"a `{type_text(value.type)}`"
+    found = "a list" if value.is_list else a_type(value.type)
     message = f"`{node.name.text}` takes {takes}, not {found}"
     context.fail(codes.FUNCTION_ARGUMENTS, value.span, message)

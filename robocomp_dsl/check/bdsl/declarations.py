@@ -13,6 +13,7 @@ from robocomp_dsl.check.bdsl.operations import PortKind, used_operation
 from robocomp_dsl.check.bdsl.paths import field_path
 from robocomp_dsl.check.bdsl.ports import bridge_port
 from robocomp_dsl.check.bdsl.type_refs import resolve_parameters, resolve_type
+from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.bdsl.types_module import camel_case
 from robocomp_dsl.check.bdsl.units import nanoseconds_of
 from robocomp_dsl.check.codes import bridge as codes
@@ -103,7 +104,7 @@ def _stamp_path(
     context.report.add(
         value_codes.TIME_TYPE,
         path.span,
-        f"`{path.text}` is no time stamp, but a `{resolved.type.name}`",
+        f"`{path.text}` is no time stamp, but {a_type(resolved.type)}",
         help="a time stamp is a ROS `Time`, or a number with a unit such as `[s]` or `[ns]`",
     )
     return ()

@@ -17,6 +17,7 @@ from robocomp_dsl.check.bdsl.items import field_of, joined_item_type
 from robocomp_dsl.check.bdsl.scopes import Scope, reject_field, reject_name
 from robocomp_dsl.check.bdsl.selections import selection
 from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.bdsl.units import convert_to, declared_unit
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.diagnostics import nearest
@@ -114,7 +115,7 @@ def _member(node: ast.Member, scope: Scope) -> Expression:
     if not isinstance(struct, Struct):
         text = node.value.span.text
         message = f"`{text}` has no fields: it is " + (
-            "a list" if value.is_list else f"a `{struct.name}`"
+            "a list" if value.is_list else a_type(struct)
         )
         help_ = f"select an item first: `{text}[0].{node.name.text}`" if value.is_list else ""
         scope.context.fail(codes.INVALID_SELECTION, node.name.span, message, help_)
@@ -132,7 +133,7 @@ def _call(node: ast.FunctionCall, scope: Scope) -> Expression:
         _check_count(node, 1, context)
         return built_in(node, typed(node.arguments[0], scope), context)
     if name.text not in context.functions:
-        reject_name(name, [*BUILT_IN, *context.functions], context)
+        reject_name(name, [*BUILT_IN, *context.functions], context, "function ")
     context.used_names.add(name.text)
     function = context.functions[name.text]
     arguments = typed_all(node.arguments, scope)

@@ -10,9 +10,10 @@ from typing import NoReturn
 from robocomp_dsl.check.bdsl.context import BridgeContext
 from robocomp_dsl.check.bdsl.items import same_type
 from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.check.literals import join_names
-from robocomp_dsl.diagnostics import Edit, Fix, nearest
+from robocomp_dsl.diagnostics import Edit, Fix
 from robocomp_dsl.model.bridge_ports import ValueType
 from robocomp_dsl.model.bridge_values import (
     Arithmetic,
@@ -21,6 +22,7 @@ from robocomp_dsl.model.bridge_values import (
     Converted,
     Counter,
     Expression,
+    ItemAt,
     Negated,
     NumberOf,
 )
@@ -108,7 +110,7 @@ def _fit_constant(
     low = 0 if type_.is_unsigned else -(1 << (type_.bits - 1))
     high = (1 << (type_.bits - (0 if type_.is_unsigned else 1))) - 1
     if not low <= written <= high:
-        message = f"{target.name} is a `{type_.name}`: {value.span.text} is outside {low} to {high}"
+        message = f"{target.name} is {a_type(type_)}: {value.span.text} is outside {low} to {high}"
         context.fail(codes.VALUE_TYPE, value.span, message)
     return value.replace(type=type_, value=int(written))
 
@@ -121,23 +123,13 @@ def reject(
     fix: Fix | None = None,
 ) -> NoReturn:
     """Report a value whose type does not fit. Raises `FaultyExpression`."""
-    message = f"{target.name} is a `{type_text(target.type)}`, not a `{type_text(value.type)}`"
+    message = f"{target.name} is {a_type(target.type)}, not {a_type(value.type)}"
     context.fail(codes.VALUE_TYPE, value.span, message, help_, fix)
-
-
-def type_text(type_: ValueType) -> str:
-    """A type as users write it."""
-    element = getattr(type_, "element", None)
-    if element is None:
-        return getattr(type_, "qualified", type_.name)
-    size = getattr(type_, "size", 0)
-    return f"{type_text(element)}[{size or ''}]"
 
 
 def _advice(value: Expression, target: Primitive) -> tuple[str, Fix | None]:
     """How to convert `value`, and the edit."""
-    function = ""
-    reason = "converts"
+    function, reason = "", "converts"
     if target.is_text and isinstance(value.type, Primitive):
         function = "text"
     elif target in NUMBERS and isinstance(value.type, (Primitive, Enum)):
@@ -146,8 +138,24 @@ def _advice(value: Expression, target: Primitive) -> tuple[str, Fix | None]:
             reason = "rounds, and drops a message whose value is out of range"
     if not function:
         return "", None
+    if isinstance(value, ConstantValue):
+        return _literal_advice(value, target)
+    if isinstance(value, ItemAt) and value.span == value.value.span:  # the list is written
+        return f"write the items: `{{ …, {function}({value.span.text}[{value.index}]), … }}`", None
     text = f"{function}({value.span.text})"
+    if isinstance(value, Converted) and value.value.type not in FRACTIONS:
+        reason += f"; {value.value.unit} in {value.unit} has a fraction"
     return f"`{text}` {reason}", Fix(f"change to `{text}`", (Edit(value.span, text),))
+
+
+def _literal_advice(value: ConstantValue, target: Primitive) -> tuple[str, Fix | None]:
+    text = value.span.text
+    if target.is_text:
+        quoted = f'"{text}"'
+        return f"write {quoted}", Fix(f"change to `{quoted}`", (Edit(value.span, quoted),))
+    if isinstance(value.value, str):
+        return "write a number without quotes", None
+    return "write a whole number" if isinstance(value.value, float) else "write a number", None
 
 
 def _enum_help(target: Target) -> str:
@@ -155,11 +163,3 @@ def _enum_help(target: Target) -> str:
         return ""
     names = [enumerator.name for enumerator in target.type.enumerators]
     return f"it is one of {join_names(names)}"
-
-
-def enumerator(name: str, target: Target) -> tuple[str | None, str | None]:
-    """The enumerator `name` of the target, or None and the nearest one."""
-    if not isinstance(target.type, Enum):
-        return None, None
-    names = [item.name for item in target.type.enumerators]
-    return (name, None) if name in names else (None, nearest(name, names))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from robocomp_dsl.check.bdsl.context import BridgeContext
 from robocomp_dsl.check.bdsl.fit_numbers import reject
 from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.bdsl.units import convert, nanoseconds_of
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.model.bridge_ports import TIME, ValueType
@@ -46,7 +47,7 @@ def _number(
         reject(value, target, context, f"`{target.unit}` is no unit of time")
     seconds_in_unsigned = nanoseconds >= _SECOND and type_.bits >= 32 and type_.is_unsigned
     if type_.bits < _WIDE and not seconds_in_unsigned:
-        message = f"{target.name} is a `{type_.name}`, which cannot hold a time in {target.unit}"
+        message = f"{target.name} is {a_type(type_)}, which cannot hold a time in {target.unit}"
         context.fail(
             codes.TIME_TYPE, value.span, message, "use a `double [s]` or a `long [ns]` there"
         )

@@ -15,11 +15,11 @@ from robocomp_dsl.check.bdsl.fit_numbers import (
     is_rounded,
     number_fits,
     reject,
-    type_text,
 )
 from robocomp_dsl.check.bdsl.fit_times import fit_time, is_ros_time
 from robocomp_dsl.check.bdsl.items import groups_of, item_at, items_of, same_type
 from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.type_words import a_type, type_text
 from robocomp_dsl.check.bdsl.units import convert
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.check.literals import join_names
@@ -61,21 +61,28 @@ def _fit_scalar(value: Expression, target: Target, context: BridgeContext) -> Ex
         return fit(item, target, context)
     if isinstance(value.type, Struct):
         reject(value, target, context, *_field_advice(value, value.type, target))
-    return fit_scalar(convert(value, target.unit, target.name, context), target, context)
+    if target.type in NUMBERS and value.type in NUMBERS:
+        value = convert(value, target.unit, target.name, context)
+    return fit_scalar(value, target, context)
 
 
 def _reject_list(value: Expression, target: Target, context: BridgeContext) -> NoReturn:
     count = "a list" if value.length is None else f"a list of {value.length} items"
     text = value.span.text
-    is_simple = text.replace("_", "").replace(".", "").isalnum()
+    is_simple = _is_simple(value)
     end = value.span.subspan(value.span.end, value.span.end)
     context.fail(
         codes.VALUE_TYPE,
         value.span,
-        f"{target.name} is a `{type_text(target.type)}`, not {count}",
+        f"{target.name} is {a_type(target.type)}, not {count}",
         f"select an item: `{text}[0]`" if is_simple else f"select an item: `({text})[0]`",
         Fix("append `[0]`", (Edit(end, "[0]"),)) if is_simple else None,
     )
+
+
+def _is_simple(value: Expression) -> bool:
+    """Whether it is a name, possibly with fields, so that more can be appended."""
+    return value.span.text.replace("_", "").replace(".", "").isalnum()
 
 
 def _field_advice(value: Expression, struct: Struct, target: Target) -> tuple[str, Fix | None]:
@@ -98,6 +105,9 @@ def _fit_struct(
     names = [field.name for field in struct.fields]
     if not value.is_list:
         reject(value, target, context, f"its fields are {join_names(names)}")
+    if value.unit and not target.unit and not any(field.unit for field in struct.fields):
+        convert(value, "", target.name, context)  # one warning for all fields
+        context.state_unit(value)
     count = len(names)
     checked = value
     if value.length is None:
@@ -134,7 +144,7 @@ def fit_all(
 def _same_fields(value: Expression, source: Struct, target: Struct) -> str:
     """The list of fields that converts a struct to another one with the same field names."""
     names = [field.name for field in source.fields]
-    if [field.name for field in target.fields] != names:
+    if [field.name for field in target.fields] != names or not _is_simple(value):
         return ""
     text = ", ".join(f"{value.span.text}.{name}" for name in names)
     return f"write its fields: `{{ {text} }}`"

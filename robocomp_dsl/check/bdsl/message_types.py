@@ -6,8 +6,8 @@ In: a typed value. Out: the type of its message, with structs for lists of diffe
 from __future__ import annotations
 
 from robocomp_dsl.check.bdsl.context import BridgeContext
-from robocomp_dsl.check.bdsl.fit_numbers import type_text
 from robocomp_dsl.check.bdsl.items import groups_of
+from robocomp_dsl.check.bdsl.type_words import type_text
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.model.bridge_ports import TIME, ItemsType, TimeType
 from robocomp_dsl.model.bridge_values import Counter, Expression, ListExpression

@@ -6,9 +6,9 @@ In: a path and the parameters of an operation. Out: the fields, with the type an
 from __future__ import annotations
 
 from robocomp_dsl.check.bdsl.context import BridgeContext, FaultyExpression
-from robocomp_dsl.check.bdsl.fit_numbers import type_text
 from robocomp_dsl.check.bdsl.scopes import reject_field
 from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.model.interface import Param
 from robocomp_dsl.model.types import Field, Sequence, Struct, Type
@@ -70,7 +70,7 @@ def _follow(
     for part in parts:
         struct = target.type
         if not isinstance(struct, Struct):
-            message = f"a `{type_text(struct)}` has no field `{part.name.text}`"
+            message = f"{a_type(struct)} has no field `{part.name.text}`"
             context.fail(codes.INVALID_SELECTION, part.name.span, message)
         names = [field.name for field in struct.fields]
         if part.name.text not in names:
@@ -94,7 +94,7 @@ def _indexed(
     sequence = target.type
     name = part.name.text
     if not isinstance(sequence, Sequence):
-        message = f"`{name}` is no list, but a `{type_text(sequence)}`"
+        message = f"`{name}` is no list, but {a_type(sequence)}"
         context.fail(codes.INVALID_SELECTION, part.index.span, message)
     if not sequence.size:
         message = f"`{name}` has no item {index}: it is empty until it is assigned"

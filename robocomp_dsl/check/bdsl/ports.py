@@ -84,7 +84,7 @@ def _able(can: Callable[[Capabilities], bool], context: BridgeContext) -> str:
     known = context.workspace.middlewares
     described = ((name, known.describe(name)) for name in known.names())
     names = [name for name, found in described if found and can(found.capabilities)]
-    return f"{join_names(names)} can" if names else ""
+    return f"{join_names(names)} can carry it" if names else ""
 
 
 def _check_capabilities(

@@ -92,13 +92,14 @@ def _check_content(tree: ast.Bridge, context: BridgeContext) -> None:
             help="add an `output` or a `service`",
         )
         return
-    for kind, items in (
-        ("input", tree.inputs),
-        ("function", tree.functions),
-        ("hub", tree.hubs),
+    for kind, items, declared in (
+        ("input", tree.inputs, context.inputs),
+        ("function", tree.functions, context.functions),
+        ("hub", tree.hubs, context.hubs),
     ):
         for item in items:
-            if item.name.text not in context.used_names:
+            is_valid = declared.get(item.name.text) is not None
+            if is_valid and item.name.text not in context.used_names:
                 context.report.add(
                     codes.UNUSED_IN_BRIDGE,
                     item.name.span,

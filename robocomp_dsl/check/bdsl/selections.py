@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from robocomp_dsl.check.bdsl.context import BridgeContext
 from robocomp_dsl.check.bdsl.items import groups_of, item_at
+from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.model.bridge_ports import ItemGroup, ItemsType
 from robocomp_dsl.model.bridge_values import Expression, Selected, Sliced
@@ -14,7 +15,7 @@ from robocomp_dsl.syntax.ast import bdsl as ast
 def selection(node: ast.Selection, value: Expression, context: BridgeContext) -> Expression:
     """The selected item or items. Raises `FaultyExpression`."""
     if not value.is_list:
-        message = f"`{node.value.span.text}` is no list, but a `{value.type.name}`"
+        message = f"`{node.value.span.text}` is no list, but {a_type(value.type)}"
         first = value.type.fields[:1] if isinstance(value.type, Struct) else ()
         help_ = f"select a field: `{node.value.span.text}.{first[0].name}`" if first else ""
         context.fail(codes.INVALID_SELECTION, node.span, message, help_)

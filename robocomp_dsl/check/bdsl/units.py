@@ -8,6 +8,7 @@ from __future__ import annotations
 from functools import cache
 
 from robocomp_dsl.check.bdsl.context import BridgeContext, FaultyExpression
+from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.diagnostics import Edit, Fix, Report, nearest
 from robocomp_dsl.model import units
@@ -142,7 +143,7 @@ def convert_to(value: Expression, unit: Unit, context: BridgeContext) -> Express
     if value.type == TIME:
         return _time_in(value, text, unit, context)
     if not has_numbers(value.type) or isinstance(value.type, (Struct, Dictionary)):
-        message = f"`{value.span.text}` is a `{value.type.name}`, and `to` converts numbers"
+        message = f"`{value.span.text}` is {a_type(value.type)}, and `to` converts numbers"
         context.fail(codes.VALUE_TYPE, value.span, message)
     if not value.unit and _units_of(value) == {""}:
         if isinstance(value, ConstantValue):

@@ -186,7 +186,7 @@ def _summary(folder: Path, changes: list[Change]) -> str:
         return f"{folder}: nothing to do, all {len(changes)} files are up to date"
     yours = [c.file.path for c in changes if c.file.write_once and c.action is FileAction.CREATE]
     begun = f"; yours to edit: {', '.join(yours)}" if yours else ""
-    gone = f"; {removed} old ones removed" if removed else ""
+    gone = f"; {removed} old files removed" if removed else ""
     return f"{folder}: {written} of {len(changes)} files written{gone}{begun}"
 
 

@@ -156,7 +156,7 @@ class PythonTypes:
         return Zero("{}" if isinstance(type_, Dictionary) else "[]", fresh=True)
 
     def _first(self, type_: Enum, default: Literal | None) -> str:
-        """The default, else the enumerator with value 0, else the first one."""
+        """The default, else the enumerator with value 0, else the first enumerator."""
         by_rank = sorted(type_.enumerators, key=lambda e: (e.name != default, e.value != 0))
         return f"{self.names[type_]}.{self._enumerators[by_rank[0]]}"
 

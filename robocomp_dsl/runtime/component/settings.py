@@ -162,7 +162,7 @@ def parse_peer(text: str) -> str:
 
 
 def parse_middlewares(texts: Iterable[str]) -> tuple[str, dict[str, tuple[str, ...]]]:
-    """`M` for all ports, `PORT=M,M` for one, in order of preference. Raises `InvalidSetting`."""
+    """`M` for all ports, `PORT=M,M` for a port, in order of preference. Raises `InvalidSetting`."""
     default = ""
     ports: dict[str, tuple[str, ...]] = {}
     for text in texts:
@@ -171,9 +171,7 @@ def parse_middlewares(texts: Iterable[str]) -> tuple[str, dict[str, tuple[str, .
         if not all(MIDDLEWARE.fullmatch(name) for name in middlewares) or (
             not separator and len(middlewares) > 1
         ):
-            raise InvalidSetting(
-                f"`{text:.80}` is not a middleware; write the name of one, or PORT=NAME,NAME"
-            )
+            raise InvalidSetting(f"`{text:.80}` is not a middleware; write NAME, or PORT=NAME,NAME")
         if separator:
             ports[port] = middlewares
         else:

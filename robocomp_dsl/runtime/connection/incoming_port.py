@@ -24,7 +24,6 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.message_stamp import with_header_stamp
 from robocomp_dsl.runtime.connection.ports import OperationCallable
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, RejectedByReceiver, Timeout
-from robocomp_dsl.runtime.middleware.transport import ServerLost
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.losses import LossCounter
@@ -32,7 +31,7 @@ if TYPE_CHECKING:
 Handle: TypeAlias = Callable[[tuple[Any, ...]], Any]
 """Calls the handler with a tuple of arguments; returns its result, raises what it raises."""
 MAX_PENDING_NUMBERS = 32
-"""Numbers are evaluated in batches: this takes a fifth of the time of one by one."""
+"""Numbers are evaluated in batches: this takes a fifth of the time."""
 log = logging.getLogger("robocomp")
 
 
@@ -107,11 +106,14 @@ class IncomingOperation:
         return handle
 
     def handle_for_caller(
-        self, timeout: float, convert: Callable[[BaseException], BaseException]
+        self,
+        timeout: float,
+        convert: Callable[[BaseException], BaseException],
+        closed_error: type[Exception],
     ) -> Handle:
         """A function that calls the handler in the thread of its caller.
 
-        It raises `Timeout` if the callback group has no slot within `timeout` s, `ServerLost` if
+        It raises `Timeout` if the callback group has no slot within `timeout` s, `closed_error` if
         the port was closed, and `convert(error)` for an error of the handler.
         """
         counts, port, handler = self.counts, self._port, self._handler
@@ -121,11 +123,11 @@ class IncomingOperation:
 
         def handle(arguments: tuple[Any, ...]) -> Any:
             if port.closed:
-                raise ServerLost
+                raise closed_error
             calls = counts.calls + 1
             counts.calls = calls
             start = 0 if calls % durations.interval else perf_counter_ns()
-            # The second `acquire` parses its arguments: slower than the first one.
+            # The second `acquire` parses its arguments: slower than the first.
             if not (acquire(False) or acquire(True, timeout)):
                 raise Timeout(f"{port.at.name} was busy for {timeout:g} s")
             me = get_ident()

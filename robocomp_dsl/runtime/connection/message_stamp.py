@@ -20,6 +20,7 @@ from robocomp_dsl.runtime.data.schema import Fields, StructBase
 
 _HEADER_ID = "std_msgs/msg/Header"
 _HEADER_FIELD = "header"
+_MAX_SEC = 2**31 - 1
 
 
 class MessageStamp(NamedTuple):
@@ -148,6 +149,13 @@ def _has_header(struct: type[StructBase]) -> bool:
         name == _HEADER_FIELD and getattr(type_, "_type_id_", "") == _HEADER_ID
         for name, type_ in struct._fields_
     )
+
+
+def fill_header(message: Any, stamp: MessageStamp) -> None:
+    """Set the stamp of a header that has none to that of the envelope of the message."""
+    if stamp.source == "envelope" and stamp.time_ns >= 0 and header_stamp(message) is None:
+        seconds, message.header.stamp.nanosec = divmod(stamp.time_ns, 1_000_000_000)
+        message.header.stamp.sec = min(seconds, _MAX_SEC)
 
 
 def header_stamp(message: Any) -> MessageStamp | None:

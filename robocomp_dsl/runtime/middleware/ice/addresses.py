@@ -1,7 +1,7 @@
 """Addresses of ports on Ice.
 
 In: texts of users and of port records. Out: their parts. The record of a served port has one or
-two lines: the proxy for queries, and that for commands if it is another one.
+two lines: the proxy for queries, and that for commands if they differ.
 """
 
 from __future__ import annotations

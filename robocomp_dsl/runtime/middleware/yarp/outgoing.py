@@ -8,8 +8,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
-from robocomp_dsl.runtime.codec.bottle.binary_writer import write_binary
-from robocomp_dsl.runtime.codec.bottle.profile import Profile
 from robocomp_dsl.runtime.codec.bottle.text_reader import read_text
 from robocomp_dsl.runtime.codec.bottle.text_writer import write_text
 from robocomp_dsl.runtime.codec.bottle.values import Bottle
@@ -63,14 +61,11 @@ def _set_up(stream: Stream, carrier: str, sender: str) -> None:
         raise ConnectionLost("the peer is no port of YARP, or accepts no tcp")
 
 
-def message_bytes(
-    carrier: str, bottle: Bottle, binary: bytes, command: str, envelope: str = ""
-) -> bytes:
+def message_bytes(carrier: str, bottle: Bottle, binary: bytes, command: str) -> bytes:
     """One message for a carrier; `binary` are the bytes of the Bottle."""
     if carrier in _WORDS:
-        head = f"{command} {envelope}" if envelope else command
-        return f"{head}\r\n{write_text(bottle)}\r\n".encode(errors="surrogateescape")
-    return wire.frame(binary, command, envelope)
+        return f"{command}\r\n{write_text(bottle)}\r\n".encode(errors="surrogateescape")
+    return wire.frame(binary, command)
 
 
 def end_bytes(carrier: str) -> bytes:
@@ -99,8 +94,3 @@ def ask_admin(address: PortAddress, sender: str, command: Bottle, timeout: float
         return read_text(reply) if reply != "<ACK>" else []
     finally:
         stream.close()
-
-
-def payload_of(bottle: Bottle, profile: Profile) -> tuple[Bottle, bytes]:
-    """A Bottle, and its bytes. Raises `EncodeError`."""
-    return bottle, write_binary(bottle, profile)
