@@ -28,7 +28,7 @@ OUTPUTS = 150
 ARITHMETIC = (ZeroDivisionError, OverflowError)
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(3))
 def test_accepted_expressions_build_encodable_messages(
     seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -88,7 +88,8 @@ def _run(bridge: Bridge, mapping: ModuleType, interfaces: ModuleType, edge: int)
         at.begin(1_700_000_000_250_000_000, edge * 70_000)
         text = output.port.span.source.line(output.port.span.start_position[0])
         try:
-            arguments = function(at, user, *sets)
+            with np.errstate(all="ignore"):
+                arguments = function(at, user, *sets)
         except (DoesNotFit, *ARITHMETIC):
             continue  # a length or range, which the running bridge counts
         except Exception as error:
