@@ -34,7 +34,7 @@ def _imports(session: Session, context: CompletionContext) -> Iterator[str]:
     if context.path.suffix.lower() != ".ddsl":
         known = session.workspace.import_resolver.importable_files(context.path)
         yield from (name for name in known if name != context.path.name)
-        if context.path.suffix.lower() == ".idsl":
+        if context.path.suffix.lower() in (".idsl", ".bdsl"):
             resolver = session.workspace.import_resolver
             yield from resolver.ros.importable(context.path, context.path)
         return
