@@ -78,6 +78,7 @@
      "attach"
      "best_effort"
      "by"
+     "carrier"
      "clock"
      "component"
      "config"

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from robocomp_dsl.check.codes import names as codes
 from robocomp_dsl.check.passes import (
+    check_bdsl,
     check_cdsl,
     check_ddsl,
     check_idsl,
@@ -28,6 +29,7 @@ from robocomp_dsl.syntax.parse import LANGUAGES, parse_innermodel, parse_ros, pa
 from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
 if TYPE_CHECKING:
+    from robocomp_dsl.model.bridge import Bridge
     from robocomp_dsl.model.component import Component
     from robocomp_dsl.model.deployment import Deployment
     from robocomp_dsl.model.innermodel import InnerModel
@@ -36,7 +38,13 @@ if TYPE_CHECKING:
     from robocomp_dsl.model.statemachine import StateMachine
 
     Model: TypeAlias = (
-        tuple[Module, ...] | Component | ParameterSet | Deployment | StateMachine | InnerModel
+        tuple[Module, ...]
+        | Component
+        | ParameterSet
+        | Deployment
+        | Bridge
+        | StateMachine
+        | InnerModel
     )
     Check: TypeAlias = Callable[[Path, Workspace, Report], Model | None]
 
@@ -47,6 +55,7 @@ CHECKS: Mapping[str, Check] = {
     ".cdsl": check_cdsl,
     ".pdsl": check_pdsl,
     ".ddsl": check_ddsl,
+    ".bdsl": check_bdsl,
     ".smdsl": check_state_machine,
     ".scxml": check_state_machine,
     ".xml": check_innermodel,

@@ -14,12 +14,14 @@ import json
 import socket
 import time
 from collections import deque
-from collections.abc import Awaitable, Callable, Iterator
+from collections.abc import Awaitable, Callable, Iterator, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from robocomp_dsl.deploy import instances
+from robocomp_dsl.deploy.external_connection import ConnectionStatus
+from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.status import ProcessStatus, SimulatedTime
 
@@ -81,12 +83,16 @@ class ControlServer:
         stop: Callable[[str], None],
         time: Callable[[], SimulatedTime | None],
         handle_request: RequestHandler,
+        externals: Callable[[], Sequence[ExternalProgram]],
+        connections: Callable[[], Sequence[ConnectionStatus]] = tuple,
     ) -> None:
         self._journal = journal
         self._statuses = statuses
         self._stop = stop
         self._time = time
         self._handle_request = handle_request
+        self._externals = externals
+        self._external_connections = connections
         self._outcome: asyncio.Future[dict[str, Any]] | None = None
         self._connections: set[asyncio.Task[None]] = set()
 
@@ -126,9 +132,13 @@ class ControlServer:
         match request.get("verb"):
             case "status":
                 statuses, time = self._statuses(), self._time()
-                clock = time.as_dict() if time else None
-                rows = [process.as_dict() for process in statuses]
-                await _send(writer, {"rows": rows, "clock": clock})
+                answer = {
+                    "rows": [process.as_dict() for process in statuses],
+                    "clock": time.as_dict() if time else None,
+                    "externals": [program.as_dict() for program in self._externals()],
+                    "connections": [link.as_dict() for link in self._external_connections()],
+                }
+                await _send(writer, answer)
             case "logs":
                 await self._logs(request, reader, writer)
             case "start" | "stop" | "restart" as verb if verb != "stop" or "components" in request:

@@ -14,12 +14,14 @@ from pathlib import Path
 
 from robocomp_dsl.deploy.connection_flags import connection_flags, middleware_flags, name_for
 from robocomp_dsl.deploy.devices import describe_devices, devices_environment
+from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.plan_text import describe_clock, describe_host
 from robocomp_dsl.model.deployment import (
     START_TIMEOUT_S,
     Clock,
     Deployment,
     External,
+    ExternalConnection,
     Instance,
     Readiness,
     ResourceLimits,
@@ -67,21 +69,6 @@ class Process:
 
 
 @dataclass(frozen=True, slots=True)
-class ExternalProgram:
-    """A program outside of the deployment; `users` are the components connected to it.
-
-    `role` and `interface` are those of its port: `implements`, `RoboCompLaser::Laser`.
-    """
-
-    name: str
-    middleware: str
-    address: str
-    role: str
-    interface: str
-    users: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
 class Plan:
     """The processes of a deployment, in an order that respects `after`.
 
@@ -95,6 +82,7 @@ class Plan:
     processes: tuple[Process, ...]
     clock: str = "wall"
     externals: tuple[ExternalProgram, ...] = ()
+    external_connections: tuple[ExternalConnection, ...] = ()
 
     def shutdown_batches(self) -> list[list[str]]:
         """Names of processes to stop, batch after batch; those of one batch stop together."""
@@ -121,6 +109,7 @@ def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) ->
         processes,
         describe_clock(deployment.clock),
         tuple(_external(external, deployment) for external in deployment.externals),
+        deployment.external_connections,
     )
 
 

@@ -32,9 +32,9 @@ def generate_components(
 def check_migrated_deployment(
     plan: MigrationPlan, out: Path, folders: Sequence[Path], report: Report
 ) -> None:
-    """Check the deployment that was written."""
-    if plan.deployment:
-        check_ddsl(out / plan.deployment, Workspace(folders), report)
+    """Check the deployments that were written."""
+    for deployment in plan.deployments:
+        check_ddsl(out / deployment, Workspace(folders), report)
 
 
 def migration_report(
@@ -45,8 +45,8 @@ def migration_report(
     steps = [f"rcgen check {place or '.'}" for place, _ in plan.components]
     started = [place for place, moved in plan.components if moved.component]
     steps += [f"(cd {p} && python3 main.py)" if p else "python3 main.py" for p in started]
-    if plan.deployment:
-        steps += [f"rcdeploy {plan.deployment} plan", f"rcdeploy {plan.deployment}"]
+    for deployment in plan.deployments:
+        steps += [f"rcdeploy {deployment} plan", f"rcdeploy {deployment}"]
     has_legacy_code = any(f.path.endswith("legacy.py") for f in plan.files)
     text = report_text(
         plan.name,

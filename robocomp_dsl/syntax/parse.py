@@ -94,6 +94,13 @@ def parse_scxml(source: Source, report: Report) -> ast_innermodel.File:
     return innermodel.parse_scxml(source, report)
 
 
+def parse_xml(source: Source, report: Report) -> ast_innermodel.File:
+    """The tree of an XML file of another project, including text content."""
+    from robocomp_dsl.syntax.xml import innermodel  # noqa: PLC0415 - loaded on first use
+
+    return innermodel.parse_xml(source, report)
+
+
 LANGUAGES: Mapping[str, Callable[[Source, Report], AnyFile]] = {
     ".idsl": parse_idsl,
     ".cdsl": parse_cdsl,

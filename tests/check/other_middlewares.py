@@ -13,7 +13,11 @@ SERVICES = Capabilities(
     between_hosts=True, topics=False, external_peers=True, fixed_address=True, reports_source=True
 )
 TOPICS = Capabilities(
-    between_hosts=True, services=False, external_peers=True, qos=frozenset({"latched"})
+    between_hosts=True,
+    services=False,
+    external_peers=True,
+    qos=frozenset({"latched"}),
+    external_port_names="/[a-z:]+",
 )
 
 

@@ -11,12 +11,16 @@ import shlex
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.diagnostics import Report, Severity
+
+if TYPE_CHECKING:
+    from robocomp_dsl.generate.output import OutputFile
 
 
 @click.command()
@@ -25,7 +29,7 @@ from robocomp_dsl.diagnostics import Report, Severity
     nargs=-1,
     required=True,
     type=click.Path(exists=True, readable=False, path_type=Path),
-    metavar="DIR|MANAGER.xml…",
+    metavar="DIR|FILE.xml…",
 )
 @click.option(
     "-o",
@@ -45,11 +49,12 @@ def command(
     output_format: str,
     folders: tuple[Path, ...],
 ) -> None:
-    """Migrate existing RoboComp components and deployments.
+    """Migrate components and deployments of RoboComp, and XML files of YARP.
 
     DIR is the folder of a component: its CDSL, etc/config (text or TOML), src/specificworker.py.
-    MANAGER.xml is a file of rcmanager, or sub.toml; name the folders of its components, too. The
-    old folders are never changed. MIGRATION.md lists what was migrated, and what was not.
+    FILE.xml is a file of rcmanager (or sub.toml; name the folders of its components, too), an
+    application of yarpmanager, or a robot of yarprobotinterface. The old files are never changed.
+    MIGRATION.md lists what was migrated, and what was not.
 
     The exit code is 0 if everything was carried over, 1 if something was not.
     """
@@ -94,6 +99,9 @@ def _migrate(
             write(out, plan.files)
             for place, files in generate_components(plan, out, folders, report):
                 write(out / place, files)
+            for world in plan.worlds:
+                folder = out / f"{Path(world).stem}_simulator"
+                write(folder, _simulator(out / world, folder, folders, report))
             check_migrated_deployment(plan, out, folders, report)
             write(out, [migration_report(plan, report, _path_formatter(inputs, out))])
     except CannotWrite as error:
@@ -106,6 +114,23 @@ def _migrate(
         print(f"next: read {shlex.quote(str(out / 'MIGRATION.md'))}")
     if report.has_errors or not plan.files:
         raise CliError(EXIT_FINDINGS)
+
+
+def _simulator(
+    world: Path, folder: Path, folders: tuple[Path, ...], report: Report
+) -> list[OutputFile]:
+    """The files of the simulator of a migrated world, as `rcgen simulator` writes them."""
+    from robocomp_dsl.check.workspace.workspace import Workspace  # noqa: PLC0415 - not for --help
+    from robocomp_dsl.cli.rcgen.simulation.simulator import (  # noqa: PLC0415
+        build_simulator,
+        simulator_files,
+    )
+
+    own, workspace = Report(), Workspace(folders)
+    simulator = build_simulator(world, (), workspace, own, own, strict=False)
+    files = simulator_files(simulator, folder, workspace, own) if simulator else []
+    report.extend(own)
+    return files
 
 
 def _path_formatter(inputs: tuple[Path, ...], out: Path) -> Callable[[Path], str]:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import Any, TypeGuard
 
 import numpy as np
@@ -91,6 +92,16 @@ def row_layout(element: type[Struct]) -> RowLayout:
         # The count before the first element ends at a multiple of 4.
         direct=solid and residue == 0 and (alignment <= 4 or first == alignment),
     )
+
+
+@once
+def packed_layout(element: type[Struct]) -> RowLayout:
+    """The layout of a sequence of `element` on a wire without padding. Raises as `row_layout`."""
+    leaves = row_layout(element).leaves
+    ends = list(accumulate(leaf.primitive.size for leaf in leaves))
+    offsets, size = (0, *ends[:-1]), ends[-1]
+    dtype = _dtype(element, iter(offsets), size)[0]
+    return RowLayout(dtype, leaves, offsets, 0, 1, size, size, direct=True)
 
 
 def _leaves(type_: Type, path: tuple[str, ...]) -> Iterator[Leaf]:

@@ -38,6 +38,16 @@ class ConnectionsBuilder(QosBuilder):
         qos = ast.Qos(block, **self.settings(items))
         return ast.Connection(span, source, target, over, qos, of_kind(ast.Monitor, items))
 
+    def external_connection(
+        self, span: Span, middleware: Name, source: Text, target: Text, carrier: Name | Text | None
+    ) -> ast.ExternalConnection:
+        """`connect yarp "/camera:o" -> "/view:i" carrier fast_tcp;`."""
+        return ast.ExternalConnection(span, middleware, source, target, carrier)
+
+    def carrier(self, _span: Span, word: Name | Text) -> Name | Text:
+        """`carrier fast_tcp`."""
+        return word
+
     def over(self, _span: Span, name: Name) -> Name:
         """`over local`."""
         return name
