@@ -6,18 +6,18 @@ In: the completion context. Out: answers, and the members that the path before t
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import takewhile
+from itertools import dropwhile, takewhile
 
 from robocomp_dsl.language_server.completion.context import CompletionContext
-from robocomp_dsl.language_server.symbols.bridge_names import (
+from robocomp_dsl.language_server.symbols.bridge_names import BridgeNames
+from robocomp_dsl.language_server.symbols.bridge_types import (
     BridgeMember,
-    BridgeNames,
     element_of,
     member_of,
     members_of,
-    reply_members,
-    request_members,
 )
+from robocomp_dsl.syntax.ast import bdsl as ast
+from robocomp_dsl.syntax.ast.base import Name, QualifiedName
 from robocomp_dsl.syntax.grammar.lexer import Token
 
 _BLOCKS = ("BRIDGE", "INPUT", "HUB", "OUTPUT", "SERVICE", "CALL")
@@ -80,7 +80,7 @@ def target_members(context: CompletionContext, names: BridgeNames) -> Iterator[B
     statement = list(context.statement)
     block = context.block
     if statement[:1] and statement[0].kind == "STAMP":
-        members = members_of(names.values().get(_name_of(block)))
+        members: Iterable[BridgeMember] = members_of(names.root(_name_of(block)))
         statement = statement[1:]
     else:
         members = _block_members(context, names)
@@ -108,17 +108,36 @@ def _follow_members(members: Iterable[BridgeMember], path: Sequence[Token]) -> o
     return owner
 
 
-def _block_members(context: CompletionContext, names: BridgeNames) -> Iterator[BridgeMember]:
-    name = _name_of(context.block)
+def _block_members(context: CompletionContext, names: BridgeNames) -> Iterable[BridgeMember]:
+    """The fields that the statements of the innermost block assign to."""
+    written = _written_type(context)
     match context.block_kind:
-        case "OUTPUT" if output := names.outputs().get(name):
-            yield from request_members(output.port.operation)
-        case "SERVICE" if service := names.services().get(name):
-            yield from reply_members(service.port.operation)
-        case "CALL" if len(context.blocks) > 1:
-            call = names.calls(_name_of(context.blocks[-2])).get(name)
-            if call:
-                yield from request_members(call.port.operation)
+        case "OUTPUT":
+            return names.declared.message(written)
+        case "SERVICE":
+            return names.declared.reply(written)
+        case "CALL":
+            return names.declared.request(written)
+    return ()
+
+
+def _written_type(context: CompletionContext) -> ast.TypeRef:
+    """The type in the statement that opened the innermost block, which may not be in the tree."""
+    block, source = context.block, context.source
+    span = source.span(context.start, context.start)
+    names: list[Name] = []
+    has_module = False
+    for token in dropwhile(lambda token: token.kind != "COLON", block):
+        if token.kind in ("OVER", "AT", "EQUAL", "BRACKETED"):
+            break
+        has_module = has_module or token.kind == "_SCOPE"
+        if token.kind == "ID":
+            names.append(Name(source.span(token.start, token.end), token.text))
+    module = names.pop(0) if has_module and names else None
+    if not names:
+        return ast.TypeRef(span)
+    operation = names[1] if len(names) > 1 else None
+    return ast.TypeRef(span, QualifiedName(span, names[0], module), operation)
 
 
 def _name_of(block: Sequence[Token]) -> str:

@@ -24,8 +24,9 @@ from robocomp_dsl.language_server.completion.context import CompletionContext
 from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.language_server.signatures.signatures_bdsl import format_function, value_text
 from robocomp_dsl.language_server.signatures.signatures_idsl import format_operation
-from robocomp_dsl.language_server.symbols.bridge_names import BridgeMember, BridgeNames
-from robocomp_dsl.language_server.symbols.symbols_bdsl import member_symbol
+from robocomp_dsl.language_server.symbols.bridge_names import BridgeNames
+from robocomp_dsl.language_server.symbols.bridge_types import BridgeMember
+from robocomp_dsl.language_server.symbols.symbols_bdsl import bridge_names, member_symbol
 from robocomp_dsl.model import types
 from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.model.interface import Interface, Module
@@ -51,9 +52,9 @@ def candidates(session: Session, context: CompletionContext) -> Iterator[Complet
     """Types, middlewares, names of values, fields on both sides of an assignment."""
     last = context.previous_kind
     first = context.statement[0].kind if context.statement else ""
-    models = [checked.model for checked in session.checks_for_completion(context.path)]
-    bridges = [model for model in models if isinstance(model, Bridge)]
-    names = BridgeNames(bridges)
+    checks = session.checks_for_completion(context.path)
+    bridges = [checked.model for checked in checks if isinstance(checked.model, Bridge)]
+    names = bridge_names(checks, context.path, session.workspace)
     if last in ("MIDDLEWARE", "OVER"):
         yield from middleware_candidates(session.workspace.middlewares)
     elif last in _FIXED:
@@ -63,7 +64,8 @@ def candidates(session: Session, context: CompletionContext) -> Iterator[Complet
     elif is_type(context):
         yield from _types(context, _modules(bridges))
     elif is_expression(context):
-        yield from _values(context, names)
+        if "ID" in context.accepted:
+            yield from _values(context, names)
     else:
         yield from _members(target_members(context, names))
 
@@ -71,7 +73,7 @@ def candidates(session: Session, context: CompletionContext) -> Iterator[Complet
 def _modules(bridges: Iterable[Bridge]) -> list[Module]:
     """All imported modules, each once."""
     every = [m for bridge in bridges for direct in bridge.modules for m in direct.closure()]
-    return list({module.name: module for module in reversed(every)}.values())
+    return list(dict.fromkeys(every))
 
 
 def _types(context: CompletionContext, modules: list[Module]) -> Iterator[CompletionCandidate]:
@@ -115,13 +117,12 @@ def _values(context: CompletionContext, names: BridgeNames) -> Iterator[Completi
     kind = lsp.CompletionItemKind.Variable
     if service:
         yield CompletionCandidate("request", kind, f"the request of {service}")
-        for call in names.calls(service):
+        for call in names.call_trees(service):
             yield CompletionCandidate(call, kind, "the reply of the call")
     else:
         for name, value in names.values().items():
-            yield CompletionCandidate(
-                name, kind, value_text(value.type, getattr(value, "unit", ""))
-            )
+            detail = value_text(value.type, getattr(value, "unit", "")) if value else ""
+            yield CompletionCandidate(name, kind, detail)
     target = target_type(context, names)
     for enumerator in target.enumerators if isinstance(target, types.Enum) else ():
         kind = lsp.CompletionItemKind.EnumMember

@@ -132,7 +132,7 @@ def _keywords(context: CompletionContext) -> Iterator[CompletionCandidate]:
     hidden = _HIDDEN_KEYWORDS | _HIDDEN_IN_BLOCK.get(context.block_kind, frozenset())
     if context.tables.language == "idsl" and not context.block and not context.statement:
         hidden |= context.tables.keyword_terminals - {"IMPORT", "MODULE"}
-    if context.previous_kind == "STAMP":
+    if context.previous_kind in ("STAMP", "DOT"):
         hidden |= _FIELD_WORDS
     if context.previous_kind == "COMMA":  # the parser accepts a trailing comma, but needs none
         hidden |= {"ON", "AFTER"}

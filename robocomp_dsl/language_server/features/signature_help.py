@@ -17,7 +17,6 @@ from robocomp_dsl.language_server.signatures.signatures_bdsl import (
     format_function,
     format_parameter,
 )
-from robocomp_dsl.language_server.symbols.bridge_names import BridgeNames
 from robocomp_dsl.language_server.symbols.lookup import resolve_position
 from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.model.bridge_ports import BridgeFunction
@@ -71,8 +70,9 @@ def _call_around(text: str) -> tuple[str, int] | None:
 
 
 def _functions(session: Session, path: Path) -> dict[str, BridgeFunction]:
-    models = [checked.model for checked in session.checks_for_completion(path)]
-    return BridgeNames([model for model in models if isinstance(model, Bridge)]).functions()
+    checks = session.checks_for_completion(path)
+    bridges = [checked.model for checked in checks if isinstance(checked.model, Bridge)]
+    return {f.name: f for bridge in reversed(bridges) for f in bridge.functions}
 
 
 def _information(function: BridgeFunction) -> lsp.SignatureInformation:

@@ -33,11 +33,18 @@ def value_text(type_: ValueType | None, unit: str = "") -> str:
             return f"{{ {', '.join(parts)} }}"
         case TimeType():
             return "time"
+        case types.Struct(fields=fields, span=span) if span.text.startswith("("):
+            inside = (f"{value_text(f.type)} {f.name}{_unit(f.unit)}" for f in fields)
+            base = f"({', '.join(inside)})"
         case types.Sequence(element=element, size=size):
             base = f"{value_text(element)}[{size or ''}]"
         case _:
             base = type_name(type_)
-    return f"{base} [{unit}]" if unit else base
+    return f"{base}{_unit(unit)}"
+
+
+def _unit(unit: str) -> str:
+    return f" [{unit}]" if unit else ""
 
 
 def format_function(function: BridgeFunction) -> str:
@@ -49,8 +56,7 @@ def format_function(function: BridgeFunction) -> str:
 
 def format_parameter(parameter: Param) -> str:
     """A parameter of a function."""
-    unit = f" [{parameter.unit}]" if parameter.unit else ""
-    return f"{value_text(parameter.type)} {parameter.name}{unit}"
+    return f"{value_text(parameter.type)} {parameter.name}{_unit(parameter.unit)}"
 
 
 def _place(port: BridgePort) -> str:
@@ -67,13 +73,15 @@ def _message(parameters: Sequence[Param]) -> str:
 
 def _fields(parameters: Sequence[Param]) -> str:
     """The structs among the types of a message, on the lines below."""
-    return "".join(referenced_signature(_innermost(p.type)) for p in parameters)
+    return "".join(_below(parameter.type) for parameter in parameters)
 
 
-def _innermost(type_: types.Type) -> types.Type:
+def _below(type_: types.Type) -> str:
+    """The declaration of a type or of its items, on the next line; none of an inline type."""
     while isinstance(type_, types.Sequence):
         type_ = type_.element
-    return type_
+    inline = isinstance(type_, types.Struct) and type_.span.text.startswith("(")
+    return "" if inline else referenced_signature(type_)
 
 
 def _input(value: BridgeInput) -> str:
@@ -101,7 +109,7 @@ def _operation_port(word: str, name: str, port: BridgePort) -> str:
     results += [parameter.type for parameter in operation.outputs]
     result = ", ".join(map(value_text, results)) or "void"
     head = f"{word} {name}({', '.join(map(format_parameter, operation.inputs))}) -> {result}"
-    below = "".join(referenced_signature(_innermost(result)) for result in results)
+    below = "".join(map(_below, results))
     return f"{head} {_place(port)}{_fields(operation.inputs)}{below}"
 
 

@@ -1,61 +1,39 @@
-"""The names in a bridge and what they stand for: inputs, hubs, functions, requests, replies, fields.
+"""The names in a bridge and what they stand for: inputs, hubs, functions, requests and replies.
 
 In: the trees and models of a BDSL file. Out: the object behind a name or a path such as
-`imu.angular_velocity.z`. Faulty expressions have no model, so this module follows the path itself.
+`imu.angular_velocity.z`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
-from robocomp_dsl.model import types
+from robocomp_dsl.language_server.symbols.bridge_types import DeclaredTypes, element_of, member_of
 from robocomp_dsl.model.bridge import Bridge, BridgeOutput, BridgeService
-from robocomp_dsl.model.bridge_ports import BridgeFunction, BridgeInput, ValueType
+from robocomp_dsl.model.bridge_ports import BridgeFunction, BridgeInput
 from robocomp_dsl.model.bridge_values import BridgeCall, BridgeHub, Expression
-from robocomp_dsl.model.interface import Operation, Param
-from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast import bdsl as ast
-
-RESULT = "result"
-"""The name of the result of a call and of a service, beside the out parameters."""
-
-
-@dataclass(frozen=True, slots=True)
-class BridgeMember:
-    """What may follow a dot: a field, a parameter, or the result of an operation."""
-
-    name: str
-    type: ValueType | None
-    unit: str
-    span: Span
-    model_object: object
-    container: str
-
-
-@dataclass(frozen=True, slots=True)
-class Request:
-    """The request of a service."""
-
-    service: BridgeService
-
-
-Named = BridgeInput | BridgeHub | BridgeFunction | BridgeOutput | BridgeService | BridgeCall
 
 
 class BridgeNames:
     """The declarations of some versions of one bridge; the first version that has a name counts."""
 
-    def __init__(self, bridges: Sequence[Bridge]) -> None:
+    def __init__(
+        self, bridges: Sequence[Bridge], trees: Sequence[ast.Bridge], declared: DeclaredTypes
+    ) -> None:
         self._bridges = bridges
+        self._trees = trees
+        self.declared = declared
 
-    def values(self) -> dict[str, BridgeInput | BridgeHub]:
-        """The inputs and hubs by name."""
-        named: dict[str, BridgeInput | BridgeHub] = {}
-        for bridge in self._bridges:
-            declared: list[BridgeInput | BridgeHub] = [*bridge.inputs, *bridge.hubs]
-            for value in declared:
-                named.setdefault(value.name, value)
+    def values(self) -> dict[str, BridgeInput | BridgeHub | None]:
+        """The inputs and hubs by name; None for one with errors."""
+        named: dict[str, BridgeInput | BridgeHub | None] = {}
+        for bridge in reversed(self._bridges):
+            named |= {value.name: value for value in bridge.inputs}
+            named |= {value.name: value for value in bridge.hubs}
+        for tree in self._trees:
+            for name in (*(i.name for i in tree.inputs), *(h.name for h in tree.hubs)):
+                named.setdefault(name.text, None)
         return named
 
     def functions(self) -> dict[str, BridgeFunction]:
@@ -63,24 +41,35 @@ class BridgeNames:
         return {f.name: f for bridge in reversed(self._bridges) for f in bridge.functions}
 
     def outputs(self) -> dict[str, BridgeOutput]:
-        """The outputs by name."""
+        """The outputs without errors by name."""
         return {o.name: o for bridge in reversed(self._bridges) for o in bridge.outputs}
 
     def services(self) -> dict[str, BridgeService]:
-        """The services by name."""
+        """The services without errors by name."""
         return {s.name: s for bridge in reversed(self._bridges) for s in bridge.services}
 
     def calls(self, service: str) -> dict[str, BridgeCall]:
-        """The calls of a service by name."""
+        """The calls without errors of a service by name."""
         own = self.services().get(service)
         return {call.name: call for call in own.calls} if own else {}
+
+    def call_trees(self, service: str) -> dict[str, ast.Call]:
+        """The calls of a service as written, by name."""
+        own = self._service_tree(service)
+        return {call.name.text: call for call in own.calls} if own else {}
 
     def root(self, name: str, service: str = "") -> object:
         """What a name in an expression stands for; None if it is unknown or has no fields."""
         if not service:
-            return self.values().get(name)
-        own = self.services().get(service)
-        return Request(own) if own and name == "request" else self.calls(service).get(name)
+            model = self.values().get(name)
+            trees = (i for tree in self._trees for i in tree.inputs if i.name.text == name)
+            written = next(trees, None)
+            return model or (self.declared.message(written.type) if written else None)
+        own = self._service_tree(service)
+        if name == "request":
+            return self.declared.request(own.type) if own else None
+        call = self.call_trees(service).get(name)
+        return self.declared.reply(call.type) if call else None
 
     def resolve(self, expression: ast.Expression, service: str = "") -> object:
         """The object or type of an expression that is a path; None for any other."""
@@ -95,55 +84,9 @@ class BridgeNames:
                 return element_of(selected) if len(indices) == 1 else selected
         return None
 
-
-def member_of(owner: object, name: str) -> BridgeMember | None:
-    """The member of that name."""
-    return next((member for member in members_of(owner) if member.name == name), None)
-
-
-def element_of(owner: object) -> object:
-    """The type of one item of a sequence; None for anything else."""
-    if isinstance(owner, BridgeInput) and len(owner.parameters) == 1:
-        owner = owner.parameters[0].type
-    return owner.element if isinstance(owner, types.Sequence) else None
-
-
-def members_of(owner: object) -> Iterator[BridgeMember]:
-    """What may follow the dot behind an input, a request, a reply, or a value of a struct."""
-    match owner:
-        case BridgeInput(port=port):
-            yield from request_members(port.operation)
-        case Request(service=service):
-            yield from request_members(service.port.operation)
-        case BridgeCall(port=port):
-            yield from reply_members(port.operation)
-        case types.Struct(fields=fields, name=name):
-            for field in fields:
-                unit = field.unit
-                yield BridgeMember(field.name, field.type, unit, field.span, field, name)
-
-
-def request_members(operation: Operation) -> Iterator[BridgeMember]:
-    """The fields of a message or request: the parameters, or the fields of the only one."""
-    yield from _of_parameters(operation.inputs, operation)
-
-
-def reply_members(operation: Operation) -> Iterator[BridgeMember]:
-    """The fields of a reply: the result and the out parameters, or the fields of the only one."""
-    result = operation.result
-    first = (Param(RESULT, result, operation.span),) if result is not None else ()
-    yield from _of_parameters((*first, *operation.outputs), operation)
-
-
-def _of_parameters(parameters: Sequence[Param], operation: Operation) -> Iterator[BridgeMember]:
-    if len(parameters) == 1:
-        yield from members_of(parameters[0].type)
-    for parameter in parameters:
-        is_result = parameter.span == operation.span
-        model = operation if is_result else parameter
-        yield BridgeMember(
-            parameter.name, parameter.type, parameter.unit, parameter.span, model, operation.name
-        )
+    def _service_tree(self, name: str) -> ast.Service | None:
+        services = (s for tree in self._trees for s in tree.services if s.name.text == name)
+        return next(services, None)
 
 
 def expressions_of(bridge: Bridge) -> Iterator[Expression]:

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import Protocol
 
 from robocomp_dsl.check.names.import_scope import ImportScope
 from robocomp_dsl.check.passes import check_bdsl
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.language_server.symbols.bridge_names import (
+from robocomp_dsl.language_server.symbols.bridge_names import BridgeNames, expressions_of
+from robocomp_dsl.language_server.symbols.bridge_types import (
     BridgeMember,
-    BridgeNames,
-    expressions_of,
+    DeclaredTypes,
     members_of,
-    reply_members,
-    request_members,
 )
 from robocomp_dsl.language_server.symbols.symbol import Occurrence, Symbol
 from robocomp_dsl.language_server.symbols.symbols_idsl import declaration_symbol, occurrences_of
@@ -30,7 +29,17 @@ from robocomp_dsl.syntax.ast.base import Name, Node, QualifiedName
 from robocomp_dsl.syntax.languages.bdsl_expressions import operands
 from robocomp_dsl.syntax.parse import parse_bdsl
 
-SERVICE_PARTS = ("Request", "Response")
+
+class Check(Protocol):
+    """The result of a check: the model and the tree of one version of a file."""
+
+    @property
+    def model(self) -> object:
+        """The model, or None."""
+
+    @property
+    def tree(self) -> object:
+        """The tree."""
 
 
 def index_file(path: Path, workspace: Workspace) -> tuple[Source, bool, list[Occurrence]]:
@@ -51,10 +60,22 @@ def import_scope_of(file: Parsed[ast.File], workspace: Workspace) -> ImportScope
     return workspace.modules.import_scope(file, links)
 
 
+def bridge_names(checks: Sequence[Check], path: Path, workspace: Workspace) -> BridgeNames:
+    """The names of some versions of the file at `path`. Raises `UnreadableSource`."""
+    models = [check.model for check in checks]
+    trees = [check.tree for check in checks]
+    file = workspace.sources.parse(path, parse_bdsl)
+    return BridgeNames(
+        [model for model in models if isinstance(model, Bridge)],
+        [tree.bridge for tree in trees if isinstance(tree, ast.File) and tree.bridge],
+        DeclaredTypes(import_scope_of(file, workspace)),
+    )
+
+
 def member_symbol(member: BridgeMember) -> Symbol:
     """The symbol of a field, a parameter, or of the operation whose result it is."""
     kind = "parameter"
-    if isinstance(member.model_object, types.Field):
+    if isinstance(member.model_object, types.Field) or member.model_object is None:
         kind = "field"
     elif isinstance(member.model_object, Operation):
         kind = "operation"
@@ -68,7 +89,8 @@ class _OccurrenceCollector:
     def __init__(self, tree: ast.Bridge, bridge: Bridge | None, scope: ImportScope) -> None:
         self._tree = tree
         self._bridge = bridge
-        self._names = BridgeNames([bridge] if bridge else [])
+        self._types = DeclaredTypes(scope)
+        self._names = BridgeNames([bridge] if bridge else [], [tree], self._types)
         self._scope = scope
         self._values: dict[str, Symbol] = {}
         self._functions: dict[str, Symbol] = {}
@@ -81,8 +103,7 @@ class _OccurrenceCollector:
         for node in tree.inputs:
             yield from self._type(node.type)
             if node.stamp:
-                members = members_of(self._names.values().get(node.name.text))
-                yield from self._path(node.stamp, members)
+                yield from self._path(node.stamp, self._types.message(node.type))
         for function in tree.functions:
             yield from self._fields(function.parameters, function.name.text, "parameter")
             yield from self._type(function.result)
@@ -129,11 +150,11 @@ class _OccurrenceCollector:
             yield from self._type(output.type)
         if output.value:
             yield from self._expression(output.value)
-        model = self._names.outputs().get(output.name.text)
+        members = self._types.message(output.type) if output.type else ()
         for field in output.fields:
             yield from self._expression(field.value)
-            if isinstance(field, ast.Assignment) and model:
-                yield from self._path(field.path, request_members(model.port.operation))
+            if isinstance(field, ast.Assignment):
+                yield from self._path(field.path, members)
 
     def _service(self, service: ast.Service) -> Iterator[Occurrence]:
         own = service.name.text
@@ -145,16 +166,14 @@ class _OccurrenceCollector:
             model = models.get(call.name.text)
             for assignment in call.fields:
                 yield from self._expression(assignment.value, own, calls)
-                if model:
-                    yield from self._path(assignment.path, request_members(model.port.operation))
+                yield from self._path(assignment.path, self._types.request(call.type))
             found = self._declared(call.name, "call", model, f"{self._tree.name.text}.{own}")
             calls.setdefault(call.name.text, found.symbol)
             yield found
-        reply = self._names.services().get(own)
+        reply = self._types.reply(service.type)
         for assignment in service.fields:
             yield from self._expression(assignment.value, own, calls)
-            if reply:
-                yield from self._path(assignment.path, reply_members(reply.port.operation))
+            yield from self._path(assignment.path, reply)
 
     def _expression(
         self, tree: Node, service: str = "", calls: dict[str, Symbol] | None = None
@@ -173,7 +192,7 @@ class _OccurrenceCollector:
                 yield from _member_occurrence(node.name, members_of(owner))
             todo += operands(node)
 
-    def _path(self, path: ast.Path, members: Iterator[BridgeMember]) -> Iterator[Occurrence]:
+    def _path(self, path: ast.Path, members: Iterable[BridgeMember]) -> Iterator[Occurrence]:
         """The fields of a path, up to the first unknown one."""
         for part in path.parts:
             member = next((m for m in members if m.name == part.name.text), None)
@@ -209,7 +228,7 @@ class _OccurrenceCollector:
 
     def _ros_service(self, name: QualifiedName) -> Iterator[Occurrence]:
         """The request of a ROS service, which has no declaration of its own."""
-        request = Name(name.name.span, f"{name.name.text}_{SERVICE_PARTS[0]}")
+        request = Name(name.name.span, f"{name.name.text}_Request")
         found = self._scope.lookup(QualifiedName(name.span, request, name.module), types.Struct)
         for struct in found[:1]:
             yield Occurrence(name.name.span, declaration_symbol(struct))
