@@ -25,8 +25,8 @@ from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.regular_file import open_regular
 from robocomp_dsl.source import Source
-from robocomp_dsl.syntax.parse import LANGUAGES, parse_innermodel, parse_ros, parse_scxml
-from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
+from robocomp_dsl.syntax.definitions import DEFINITION_SUFFIXES
+from robocomp_dsl.syntax.parse import DEFINITIONS, LANGUAGES, parse_innermodel, parse_scxml
 
 if TYPE_CHECKING:
     from robocomp_dsl.model.bridge import Bridge
@@ -51,7 +51,7 @@ if TYPE_CHECKING:
 
 CHECKS: Mapping[str, Check] = {
     ".idsl": check_idsl,
-    **dict.fromkeys(ROS_SUFFIXES, check_idsl),
+    **dict.fromkeys(DEFINITION_SUFFIXES, check_idsl),
     ".cdsl": check_cdsl,
     ".pdsl": check_pdsl,
     ".ddsl": check_ddsl,
@@ -69,7 +69,7 @@ _HEAD = 4096
 
 PARSERS: Mapping[str, Callable[[Source, Report], object]] = {
     **LANGUAGES,
-    **dict.fromkeys(ROS_SUFFIXES, parse_ros),
+    **DEFINITIONS,
     ".scxml": parse_scxml,
     ".xml": parse_innermodel,
 }

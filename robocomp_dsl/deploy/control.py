@@ -28,7 +28,7 @@ from robocomp_dsl.deploy.status import ProcessStatus, SimulatedTime
 JOURNAL_SIZE = 10_000
 """Records that `logs` can show from the past, and the queue length of each follower."""
 REPLY_TIMEOUT_S = 0.5
-"""rcdeploy answers within a millisecond; one that is stopped never."""
+"""rcdeploy answers within a millisecond; a stopped rcdeploy never."""
 _CONNECT_PERIOD_S = 0.01
 _STATUS = {"verb": "status"}
 RecordFilter: TypeAlias = Callable[[LogRecord], bool]
@@ -39,7 +39,7 @@ RequestHandler: TypeAlias = Callable[
 
 
 class LogJournal:
-    """Ring buffer of the latest records, with followers that receive new ones."""
+    """Ring buffer of the latest records, with followers that receive new records."""
 
     def __init__(self) -> None:
         self._records: deque[LogRecord] = deque(maxlen=JOURNAL_SIZE)
@@ -85,7 +85,9 @@ class ControlServer:
         handle_request: RequestHandler,
         externals: Callable[[], Sequence[ExternalProgram]],
         connections: Callable[[], Sequence[ConnectionStatus]] = tuple,
+        programs: Sequence[str] = (),
     ) -> None:
+        """`connections` are those between external programs; `programs` are no components."""
         self._journal = journal
         self._statuses = statuses
         self._stop = stop
@@ -93,6 +95,7 @@ class ControlServer:
         self._handle_request = handle_request
         self._externals = externals
         self._external_connections = connections
+        self._programs = list(programs)
         self._outcome: asyncio.Future[dict[str, Any]] | None = None
         self._connections: set[asyncio.Task[None]] = set()
 
@@ -137,6 +140,7 @@ class ControlServer:
                     "clock": time.as_dict() if time else None,
                     "externals": [program.as_dict() for program in self._externals()],
                     "connections": [link.as_dict() for link in self._external_connections()],
+                    "programs": self._programs,
                 }
                 await _send(writer, answer)
             case "logs":

@@ -44,7 +44,8 @@ class Process:
     have exited before it is stopped. `config`, `context`, `config_name` and `settings`
     (`key=value`) are those in `argv`; `config` None: the component's default, or what it finds by
     `context` and `config_name`. `port` 0: any free port. `host` and `group` are as written in the
-    description, empty for this machine and for no group; `devices` are text lines.
+    description, empty for this machine and for no group; `devices` are text lines. `is_program`:
+    it is no component.
     """
 
     name: str
@@ -66,6 +67,7 @@ class Process:
     host: str = ""
     group: str = ""
     devices: tuple[str, ...] = ()
+    is_program: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,6 +195,7 @@ def _process(deployment: Deployment, instance: Instance, domain: str, interprete
         host=describe_host(instance.host),
         group=instance.group,
         devices=describe_devices(instance.devices),
+        is_program=instance.is_program,
     )
 
 

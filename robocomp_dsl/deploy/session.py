@@ -119,6 +119,7 @@ async def _run(
         requests.handle,
         lambda: supervisor.plan.externals,
         supervisor.external_connections.statuses,
+        [process.name for process in plan.processes if process.is_program],
     )
     await server.open(lock.folder / instances.SOCKET)
     path = str(plan.path.resolve())

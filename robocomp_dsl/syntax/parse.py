@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.source import Source
+from robocomp_dsl.syntax.definitions import BOTTLE_SUFFIX, THRIFT_SUFFIX
+from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
 if TYPE_CHECKING:
     from robocomp_dsl.syntax.ast import bdsl as ast_bdsl
@@ -41,6 +43,20 @@ def parse_idsl(source: Source, report: Report) -> ast_idsl.File:
 def parse_ros(source: Source, report: Report) -> ast_idsl.File:
     """The tree of a ROS definition: `.msg`, `.srv` or `.action`."""
     from robocomp_dsl.syntax.ros import definition  # noqa: PLC0415 - loaded on first use
+
+    return definition.parse(source, report)
+
+
+def parse_thrift(source: Source, report: Report) -> ast_idsl.File:
+    """The tree of a Thrift definition."""
+    from robocomp_dsl.syntax.thrift import definition  # noqa: PLC0415 - loaded on first use
+
+    return definition.parse(source, report)
+
+
+def parse_bottle(source: Source, report: Report) -> ast_idsl.File:
+    """The tree of a Bottle definition."""
+    from robocomp_dsl.syntax.bottle import definition  # noqa: PLC0415 - loaded on first use
 
     return definition.parse(source, report)
 
@@ -110,3 +126,10 @@ LANGUAGES: Mapping[str, Callable[[Source, Report], AnyFile]] = {
     ".bdsl": parse_bdsl,
 }
 """File suffix (lower case) to parser."""
+
+DEFINITIONS: Mapping[str, Callable[[Source, Report], ast_idsl.File]] = {
+    **dict.fromkeys(ROS_SUFFIXES, parse_ros),
+    THRIFT_SUFFIX: parse_thrift,
+    BOTTLE_SUFFIX: parse_bottle,
+}
+"""The same for the definitions that IDSL imports as modules: see `syntax/definitions.py`."""

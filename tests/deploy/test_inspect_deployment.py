@@ -29,7 +29,7 @@ def test_inspect_commands_find_components_of_deployment(app_folder: Path) -> Non
         again = rcdeploy("app.ddsl", "connect", "eye.Laser", "arm.Laser")
         assert "connect eye.Laser -> arm.Laser;" in again.stdout, again.stderr
         assert rcdeploy("connections", "app").stdout.count("Laser") >= 2
-        kept = rcdeploy("qos", "app", "eye.Laser", "arm.Laser", "priority=off")
-        assert kept.stdout.startswith("eye.Laser with arm.Laser: the defaults"), kept.stderr
+        changed = rcdeploy("qos", "app", "eye.Laser", "arm.Laser", "priority=off")
+        assert changed.stdout.startswith("eye.Laser with arm.Laser: the defaults"), changed.stderr
         wrong = rcdeploy("call", "amr.Laser.getLaserData")
         assert (wrong.returncode, "it has arm, eye" in wrong.stderr) == (1, True), wrong.stderr

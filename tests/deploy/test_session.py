@@ -135,7 +135,7 @@ def test_session_replaces_reaper_that_died(tmp_path: Path, sessions: ExitStack) 
     first = reaper_of(session.process.pid)
     os.kill(first, signal.SIGKILL)
     line = session.until(f"the reaper (pid {first})")
-    assert "died (killed by SIGKILL); started a new one" in line
+    assert "died (killed by SIGKILL); started another reaper" in line
     second = int(re.findall(r"pid (\d+)", line)[1])
     assert is_alive(second)
     running = pids("demo")

@@ -97,4 +97,5 @@ def _product_unit(
         return left.unit
     if node.operator == "*":
         return f"{left.unit} {right.unit}" if left.unit else right.unit
-    return f"{left.unit or '1'}/({right.unit})"
+    divisor = right.unit if right.unit.isalpha() else f"({right.unit})"
+    return f"{left.unit or '1'}/{divisor}"

@@ -133,7 +133,7 @@ def _call(node: ast.FunctionCall, scope: Scope) -> Expression:
         _check_count(node, 1, context)
         return built_in(node, typed(node.arguments[0], scope), context)
     if name.text not in context.functions:
-        reject_name(name, [*BUILT_IN, *context.functions], context)
+        reject_name(name, [*BUILT_IN, *context.functions], context, "function ")
     context.used_names.add(name.text)
     function = context.functions[name.text]
     arguments = typed_all(node.arguments, scope)

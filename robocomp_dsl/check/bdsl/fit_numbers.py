@@ -13,7 +13,7 @@ from robocomp_dsl.check.bdsl.target import Target
 from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.check.literals import join_names
-from robocomp_dsl.diagnostics import Edit, Fix, nearest
+from robocomp_dsl.diagnostics import Edit, Fix
 from robocomp_dsl.model.bridge_ports import ValueType
 from robocomp_dsl.model.bridge_values import (
     Arithmetic,
@@ -22,6 +22,7 @@ from robocomp_dsl.model.bridge_values import (
     Converted,
     Counter,
     Expression,
+    ItemAt,
     Negated,
     NumberOf,
 )
@@ -128,8 +129,7 @@ def reject(
 
 def _advice(value: Expression, target: Primitive) -> tuple[str, Fix | None]:
     """How to convert `value`, and the edit."""
-    function = ""
-    reason = "converts"
+    function, reason = "", "converts"
     if target.is_text and isinstance(value.type, Primitive):
         function = "text"
     elif target in NUMBERS and isinstance(value.type, (Primitive, Enum)):
@@ -138,8 +138,24 @@ def _advice(value: Expression, target: Primitive) -> tuple[str, Fix | None]:
             reason = "rounds, and drops a message whose value is out of range"
     if not function:
         return "", None
+    if isinstance(value, ConstantValue):
+        return _literal_advice(value, target)
+    if isinstance(value, ItemAt) and value.span == value.value.span:  # the list is written
+        return f"write the items: `{{ …, {function}({value.span.text}[{value.index}]), … }}`", None
     text = f"{function}({value.span.text})"
+    if isinstance(value, Converted) and value.value.type not in FRACTIONS:
+        reason += f"; {value.value.unit} in {value.unit} has a fraction"
     return f"`{text}` {reason}", Fix(f"change to `{text}`", (Edit(value.span, text),))
+
+
+def _literal_advice(value: ConstantValue, target: Primitive) -> tuple[str, Fix | None]:
+    text = value.span.text
+    if target.is_text:
+        quoted = f'"{text}"'
+        return f"write {quoted}", Fix(f"change to `{quoted}`", (Edit(value.span, quoted),))
+    if isinstance(value.value, str):
+        return "write a number without quotes", None
+    return "write a whole number" if isinstance(value.value, float) else "write a number", None
 
 
 def _enum_help(target: Target) -> str:
@@ -147,11 +163,3 @@ def _enum_help(target: Target) -> str:
         return ""
     names = [enumerator.name for enumerator in target.type.enumerators]
     return f"it is one of {join_names(names)}"
-
-
-def enumerator(name: str, target: Target) -> tuple[str | None, str | None]:
-    """The enumerator `name` of the target, or None and the nearest one."""
-    if not isinstance(target.type, Enum):
-        return None, None
-    names = [item.name for item in target.type.enumerators]
-    return (name, None) if name in names else (None, nearest(name, names))

@@ -69,7 +69,7 @@ def _fit_scalar(value: Expression, target: Target, context: BridgeContext) -> Ex
 def _reject_list(value: Expression, target: Target, context: BridgeContext) -> NoReturn:
     count = "a list" if value.length is None else f"a list of {value.length} items"
     text = value.span.text
-    is_simple = text.replace("_", "").replace(".", "").isalnum()
+    is_simple = _is_simple(value)
     end = value.span.subspan(value.span.end, value.span.end)
     context.fail(
         codes.VALUE_TYPE,
@@ -78,6 +78,11 @@ def _reject_list(value: Expression, target: Target, context: BridgeContext) -> N
         f"select an item: `{text}[0]`" if is_simple else f"select an item: `({text})[0]`",
         Fix("append `[0]`", (Edit(end, "[0]"),)) if is_simple else None,
     )
+
+
+def _is_simple(value: Expression) -> bool:
+    """Whether it is a name, possibly with fields, so that more can be appended."""
+    return value.span.text.replace("_", "").replace(".", "").isalnum()
 
 
 def _field_advice(value: Expression, struct: Struct, target: Target) -> tuple[str, Fix | None]:
@@ -100,6 +105,9 @@ def _fit_struct(
     names = [field.name for field in struct.fields]
     if not value.is_list:
         reject(value, target, context, f"its fields are {join_names(names)}")
+    if value.unit and not target.unit and not any(field.unit for field in struct.fields):
+        convert(value, "", target.name, context)  # one warning for all fields
+        context.state_unit(value)
     count = len(names)
     checked = value
     if value.length is None:
@@ -136,7 +144,7 @@ def fit_all(
 def _same_fields(value: Expression, source: Struct, target: Struct) -> str:
     """The list of fields that converts a struct to another one with the same field names."""
     names = [field.name for field in source.fields]
-    if [field.name for field in target.fields] != names:
+    if [field.name for field in target.fields] != names or not _is_simple(value):
         return ""
     text = ", ".join(f"{value.span.text}.{name}" for name in names)
     return f"write its fields: `{{ {text} }}`"

@@ -186,15 +186,27 @@ def _report_no_service(kind: PortKind, name: QualifiedName, context: BridgeConte
         context.report.add(
             codes.BRIDGE_OPERATION,
             name.span,
-            f"`{name.text}` is a message: the type of a {kind.word} is a service",
-            notes=[Note(structs[0].span, "it is declared here")],
+            f"`{name.text}` is data: a {kind.word} has a request and a response",
+            help="its type is a ROS service, or an operation `Module::Interface.operation`",
         )
     elif not context.scope.is_follow_on_error(name, None):
-        offer = context.scope.suggest_import(service_part(name, "Request"))
-        context.report.add(
-            codes.BRIDGE_OPERATION,
-            name.span,
-            f"no import declares the service `{name.text}`",
-            help=offer.help if offer else "a service comes from an imported `.srv` file",
-            fix=offer.fix if offer else None,
-        )
+        _report_unknown_service(name, context)
+
+
+def _report_unknown_service(name: QualifiedName, context: BridgeContext) -> None:
+    known = [
+        declared.qualified.removesuffix("_Request")
+        for declared in context.scope.declarations(Struct)
+        if declared.name.endswith("_Request")
+    ]
+    guess = nearest(name.text, known)
+    offer = context.scope.suggest_import(service_part(name, "Request"))
+    fix = offer.fix if offer else replace_fix(name.span, guess) if guess else None
+    context.report.add(
+        codes.BRIDGE_OPERATION,
+        name.span,
+        f"no import declares the service `{name.text}`",
+        label=f"did you mean `{guess}`?" if guess and not offer else "",
+        help=offer.help if offer else "a service comes from an imported `.srv` file",
+        fix=fix,
+    )

@@ -23,7 +23,6 @@ from robocomp_dsl.check.bdsl.target import Target
 from robocomp_dsl.check.bdsl.type_refs import UnitType
 from robocomp_dsl.check.bdsl.types_module import camel_case
 from robocomp_dsl.check.codes import bridge as codes
-from robocomp_dsl.diagnostics import Edit, Fix
 from robocomp_dsl.model.bridge import BridgeOutput
 from robocomp_dsl.model.bridge_ports import BridgeInput
 from robocomp_dsl.model.bridge_values import (
@@ -185,13 +184,11 @@ def _untyped(
     fields = [field for field in tree.fields if isinstance(field, ast.Assignment)]
     items = [field.value for field in tree.fields if isinstance(field, ast.Item)]
     if fields:
-        end = tree.name.span.subspan(tree.name.span.end, tree.name.span.end)
         context.report.add(
             codes.OUTPUT_FORM,
             fields[0].path.span,
             f"`{tree.name.text}` has no type, so it has no field `{fields[0].path.text}`",
             help=f"write `output {tree.name.text} : Type`, or `item value;` for each item",
-            fix=None if items else Fix("add a type", (Edit(end, " : Type"),)),
         )
         return None
     if tree.value is not None and items:

@@ -19,7 +19,7 @@ from robocomp_dsl.check.codes import bridge as codes
 from robocomp_dsl.check.workspace.loaded import transitive_errors
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.check.workspace.workspace import Workspace
-from robocomp_dsl.diagnostics import Edit, Fix, Report
+from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.syntax.ast import bdsl as ast
 
@@ -104,5 +104,5 @@ def _check_content(tree: ast.Bridge, context: BridgeContext) -> None:
                     codes.UNUSED_IN_BRIDGE,
                     item.name.span,
                     f"nothing uses the {kind} `{item.name.text}`",
-                    fix=Fix("remove it", (Edit(item.span, ""),)) if kind != "function" else None,
+                    help="remove it" if kind == "function" else "remove it, or use it in an output",
                 )

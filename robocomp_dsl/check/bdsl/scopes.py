@@ -5,7 +5,7 @@ In: a name, or a name and a member of it. Out: a typed expression, or a finding.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import NoReturn, TypeVar
 
 from robocomp_dsl.check.bdsl.context import BridgeContext, FaultyExpression
@@ -61,7 +61,7 @@ class BridgeScope:
         word, span = name.text, name.span
         self.context.used_names.add(word)
         if word not in self.names():
-            reject_name(name, self.names(), self.context)
+            self._reject(name)
         if word in self.context.inputs:
             source = _declared(self.context.inputs[word])
             return _whole(span, source.parameters, _input_value(source))
@@ -70,6 +70,12 @@ class BridgeScope:
             length = hub.type.count if hub.length is None else hub.length
             return HubValue(span, hub.type, hub.type.unit, length, hub)
         return _now_or_counter(word, span)
+
+    def _reject(self, name: Name) -> NoReturn:
+        if name.text in ("now", "counter"):
+            message = f"`{name.text}` is available in outputs, not in hubs"
+            self.context.fail(codes.UNKNOWN_BRIDGE_NAME, name.span, message)
+        reject_name(name, self.names(), self.context)
 
     def member(self, name: Name, member: Name) -> Expression | None:
         """The parameter `member` of `name`; None if it can only be a field of its value."""
@@ -95,10 +101,13 @@ class ServiceScope:
         context: BridgeContext,
         request: tuple[Param, ...],
         calls: Mapping[str, BridgeCall | None],
+        every_call: Collection[str] = (),
     ) -> None:
+        """`calls` are the earlier calls, `every_call` the names of all calls of the service."""
         self.context = context
         self._request = request
         self._calls = calls
+        self._every_call = every_call
 
     def names(self) -> list[str]:
         """All names, for suggestions."""
@@ -123,6 +132,9 @@ class ServiceScope:
             help_ = f"a service uses {join_names(self.names())}; outputs use inputs and hubs"
             message = f"`{word}` is not available in a service"
             self.context.fail(codes.UNKNOWN_BRIDGE_NAME, name.span, message, help_)
+        if word in self._every_call:
+            message = f"`{word}` is called later: calls are made in the order of writing"
+            self.context.fail(codes.UNKNOWN_BRIDGE_NAME, name.span, message)
         reject_name(name, self.names(), self.context)
 
     def member(self, name: Name, member: Name) -> Expression | None:
@@ -152,15 +164,15 @@ def reply_parameters(operation: Operation) -> tuple[Param, ...]:
     return (*first, *operation.outputs)
 
 
-def reject_name(name: Name, known: list[str], context: BridgeContext) -> NoReturn:
-    """Report an unknown name. Raises `FaultyExpression`."""
+def reject_name(name: Name, known: list[str], context: BridgeContext, noun: str = "") -> NoReturn:
+    """Report an unknown name; `noun` is what it should be. Raises `FaultyExpression`."""
     if not context.is_complete:
         raise FaultyExpression
     guess = nearest(name.text, known)
     context.report.add(
         codes.UNKNOWN_BRIDGE_NAME,
         name.span,
-        f"the bridge declares no `{name.text}`",
+        f"the bridge declares no {noun}`{name.text}`",
         label=f"did you mean `{guess}`?" if guess else "",
         help="" if guess else f"known here: {join_names(known) or 'nothing'}",
         fix=replace_fix(name.span, guess) if guess else None,

@@ -23,7 +23,8 @@ def resolve_service(tree: ast.Service, context: BridgeContext) -> BridgeService 
         return None
     port = bridge_port(PortKind.SERVICE, tree.name, tree.place, used, context)
     calls: dict[str, BridgeCall | None] = {}
-    scope = ServiceScope(context, used.operation.inputs, calls)
+    every_call = [call.name.text for call in tree.calls]
+    scope = ServiceScope(context, used.operation.inputs, calls, every_call)
     valid = check_names(tree.calls, context)
     for call in tree.calls:
         if id(call) in valid:

@@ -38,13 +38,13 @@ class TypesModule:
         self._span = span
         self._names: set[str] = set()
         self._sequences: dict[tuple[object, int], Sequence] = {}
+        self._structs: dict[object, Struct] = {}
         self._interfaces: list[Interface] = []
         self._kept: list[Type] = []
 
     def sequence(self, element: Type, size: int, span: Span) -> Sequence:
         """A list of `element`; `size` 0: of any length. Equal lists are one declaration."""
-        identity = element if isinstance(element, Primitive) else id(element)
-        key = (identity, size)
+        key = (_identity(element), size)
         if key not in self._sequences:
             stem = camel_case(re.sub(r"\W", "", element.name))
             name = self._unique(f"{stem}{size or ''}List")
@@ -52,8 +52,11 @@ class TypesModule:
         return self._sequences[key]
 
     def struct(self, name: str, fields: tuple[Field, ...], span: Span) -> Struct:
-        """A struct called `name`, or `name` with a number."""
-        return Struct(self.name, self._unique(name), span, "", fields)
+        """A struct called `name`, or `name` with a number. Equal structs are one declaration."""
+        key = tuple((field.name, _identity(field.type), field.unit) for field in fields)
+        if key not in self._structs:
+            self._structs[key] = Struct(self.name, self._unique(name), span, "", fields)
+        return self._structs[key]
 
     def keep(self, type_: Type) -> None:
         """Declare `type_` in the module: a function uses it."""
@@ -95,6 +98,11 @@ class TypesModule:
             free = f"{name}{number}"
         self._names.add(free.lower())
         return free
+
+
+def _identity(type_: Type) -> object:
+    """What equal types have in common."""
+    return type_ if isinstance(type_, Primitive) else id(type_)
 
 
 def _collect(type_: Type, used: dict[int, Declaration]) -> None:

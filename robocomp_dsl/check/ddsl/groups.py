@@ -21,7 +21,7 @@ from robocomp_dsl.syntax.ast import ddsl as ast
 def resolve_groups(
     scope: DeploymentScope, known: Mapping[str, Instance], report: Report
 ) -> tuple[Group, ...]:
-    """All groups, outer ones first."""
+    """All groups, outer groups first."""
     return tuple(
         Group(
             inner.path,

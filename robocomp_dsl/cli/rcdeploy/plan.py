@@ -28,7 +28,7 @@ from robocomp_dsl.model.deployment import ExternalConnection
 @click.option(
     "--name", metavar="NAME", help="Name of the running deployment; default: its name in the file."
 )
-@click.option("--domain", metavar="NAME", help="Communication domain; default: a new one.")
+@click.option("--domain", metavar="NAME", help="Communication domain; default: a new domain.")
 @click.option("--format", "output_format", type=click.Choice(["text", "json"]), default="text")
 def command(
     app: Path,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -76,14 +77,25 @@ def is_meant(deployment: instances.RunningDeployment, which: str) -> bool:
 
 
 def components(deployment: instances.RunningDeployment) -> list[str]:
-    """The full names of its components."""
+    """The full names of its components and programs."""
+    return [str(row["name"]) for row in _status(deployment)["rows"]]
+
+
+def answering_components(deployment: instances.RunningDeployment) -> list[str]:
+    """The full names of its components, without the programs, which answer no calls."""
+    status = _status(deployment)
+    names = [str(row["name"]) for row in status["rows"]]
+    return [name for name in names if name not in status.get("programs", ())]
+
+
+def _status(deployment: instances.RunningDeployment) -> dict[str, Any]:
+    """The reply of the deployment's rcdeploy. Raises `CliError`."""
     try:
-        answer = next(control.send_request(deployment.name, {"verb": "status"}))
+        return next(control.send_request(deployment.name, {"verb": "status"}))
     except (instances.Unavailable, StopIteration):
         raise CliError(
             EXIT_FINDINGS, f"`{deployment.name}` does not answer; it may be ending"
         ) from None
-    return [str(row["name"]) for row in answer["rows"]]
 
 
 def resolve_component(name: str, known: Sequence[str]) -> str:

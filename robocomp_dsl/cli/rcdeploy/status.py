@@ -1,4 +1,4 @@
-"""`rcdeploy status`: shows a deployment's components. In: a running one. Out: a table or JSON.
+"""`rcdeploy status`: shows a deployment's components. Out: a table or JSON.
 
 The supervisor knows the processes; lifecycles and state machines are queried from the components.
 """
@@ -55,7 +55,7 @@ class DeploymentReport:
     """The status of one deployment; `clock` is None without a simulated clock.
 
     `connections` are those between external programs. rcdeploy starts no external program, so it
-    knows no state of one.
+    knows no state of it.
     """
 
     deployment: instances.RunningDeployment
@@ -95,8 +95,8 @@ def _report(deployment: instances.RunningDeployment) -> DeploymentReport:
             EXIT_FINDINGS, f"`{deployment.name}` does not answer; it may be ending"
         ) from None
     rows = [status.ProcessStatus.from_dict(row) for row in answer["rows"]]
-    externals = [ExternalProgram.from_dict(fields) for fields in answer["externals"]]
-    links = [ConnectionStatus(**link) for link in answer["connections"]]
+    externals = [ExternalProgram.from_dict(fields) for fields in answer.get("externals", ())]
+    links = [ConnectionStatus(**link) for link in answer.get("connections", ())]
     rows = _with_component_state(deployment, rows)
     return DeploymentReport(deployment, rows, answer["clock"], externals, links)
 

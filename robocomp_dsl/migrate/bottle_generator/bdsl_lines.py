@@ -6,9 +6,10 @@ In: lines and spans. Out: the text, and diagnostics about it as diagnostics abou
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from robocomp_dsl.diagnostics import Diagnostic, Note
-from robocomp_dsl.source import Span
+from robocomp_dsl.source import Source, Span
 
 
 @dataclass(slots=True)
@@ -37,6 +38,13 @@ class ConvertedBridge:
     text: str
     origins: tuple[Span | None, ...]
     file: Span
+
+    def formatted(self) -> str:
+        """The text as `rcgen fmt` lays it out."""
+        from robocomp_dsl.format.formatter import format_source  # noqa: PLC0415 - for files only
+
+        source = Source(Path(f"{self.name}.bdsl"), self.text)
+        return format_source(source, ()) or self.text
 
     def original(self, diagnostic: Diagnostic) -> Diagnostic:
         """A diagnostic about the text, at the position in the configuration."""

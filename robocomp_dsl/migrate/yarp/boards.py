@@ -88,4 +88,4 @@ def _part_name(device: RobotDevice) -> str:
     path = [each for each in text(device.values, "name").split("/") if each]
     if path and re.match(r"[A-Za-z_]", path[-1]):
         return path[-1]
-    return re.sub(r"[-_](mc|wrapper|remapper|nws_yarp)$", "", device.name) or device.name
+    return re.sub(r"(?:[-_](?:mc|wrapper|remapper|nws_yarp))+$", "", device.name) or device.name

@@ -15,7 +15,7 @@ from robocomp_dsl.migrate.yarp.boards import ControlBoard
 from robocomp_dsl.migrate.yarp.device_types import DeviceRole, advice_for, role_of
 from robocomp_dsl.migrate.yarp.joints import JointGroup, RobotJoint, RobotJoints, attached_devices
 from robocomp_dsl.migrate.yarp.programs import UniqueNames
-from robocomp_dsl.migrate.yarp.robot_files import RobotAction, RobotDescription, RobotDevice
+from robocomp_dsl.migrate.yarp.robot_files import RobotAction, RobotDevice, YarpRobot
 from robocomp_dsl.migrate.yarp.robot_values import numbers, text
 
 _ORDER_REVERSED = ("interrupt1", "interrupt2", "interrupt3", "shutdown")
@@ -27,7 +27,7 @@ class DevicePlanWriter:
 
     def __init__(
         self,
-        robot: RobotDescription,
+        robot: YarpRobot,
         joints: RobotJoints,
         boards: Sequence[ControlBoard],
         report: Report,

@@ -16,7 +16,8 @@ from robocomp_dsl.syntax.parse import parse_xml
 
 _HARMLESS = ("RC184", "RC185", "RC187")
 """Text between tags, document types, dashes in comments. A lone `&` stands for itself, too."""
-_ROOT = re.compile(r"(?:<\?.*?\?>|<!--.*?-->|<![^>]*>|[^<])*<\s*([\w.:-]+)", re.DOTALL)
+_PROLOGUE = re.compile(r"<\?.*?\?>|<!--.*?-->", re.DOTALL)
+_ROOT = re.compile(r"<\s*([\w.:-]+)")
 
 APPLICATION = "application"
 ROBOT_ROOTS = ("robot", "devices", "device")
@@ -28,7 +29,7 @@ OTHER_ROOTS = ("module", "resources", "cluster", "templates", *PARTIAL_ROOTS)
 
 def root_name(source: Source) -> str:
     """The name of the root element in lower case; empty if there is none."""
-    match = _ROOT.match(source.text)
+    match = _ROOT.search(_PROLOGUE.sub("", source.text))
     return match[1].rpartition(":")[2].lower() if match else ""
 
 

@@ -161,13 +161,14 @@ class RobotJoints:
         ]
 
     def _of_attached(self, device: RobotDevice, name: str, count: int) -> JointGroup:
-        """The joints of an attached device; of one that is not in the files, `count` new ones."""
-        if not name or name in self.devices:
-            return self.of(name)
+        """The joints of an attached device; if no file states them, `count` new ones."""
+        known = self.of(name)
+        if known or not name or name in self._open:
+            return known
         group = self._groups.setdefault(name, [])
         missing = range(len(group), min(count, MAX_JOINTS))
         if missing:
-            message = f"`{device.name}`: its driver `{name:.60}` is not in the files"
+            message = f"`{device.name}`: no file states the joints of `{name:.60}`"
             self._report.add(codes.ASSUMED_VALUE, device.span, message)
         group += [self._joint(f"{name}_{i}", i, [], [[], []], []) for i in missing]
         return group

@@ -39,6 +39,8 @@ class YarpPlan:
 
 def is_yarp_file(path: Path) -> bool:
     """Whether a file is one of YARP, by its root element."""
+    if path.suffix.lower() == ".toml":
+        return False
     try:
         return root_name(Source.read(path)) in (APPLICATION, *ROBOT_ROOTS, *OTHER_ROOTS)
     except UnreadableSource:
@@ -46,9 +48,17 @@ def is_yarp_file(path: Path) -> bool:
 
 
 def plan_yarp_files(
-    paths: Sequence[Path], out: Path, taken: Sequence[str], report: Report
+    paths: Sequence[Path],
+    out: Path,
+    report: Report,
+    *,
+    tags: Sequence[str] = (),
+    taken: Sequence[str] = (),
 ) -> YarpPlan:
-    """Plan the migration of files for which `is_yarp_file` holds. `out` is the output folder, `taken` are names in use."""
+    """Plan the migration of files for which `is_yarp_file` holds.
+
+    `out` is the output folder; `tags` enable parts of robots; `taken` are names in use.
+    """
     plan, names = YarpPlan(), UniqueNames()
     for name in taken:
         names.claim(name)
@@ -62,7 +72,7 @@ def plan_yarp_files(
                 own.append((path, application))
                 applications.setdefault(_key(application), application)
         elif root in ROBOT_ROOTS:
-            _add_robot(source, out, names, plan, report)
+            _add_robot(source, out, frozenset(tags), names, plan, report)
         else:
             message = f"`<{root}>`: name the application or the robot that uses this file"
             report.add(codes.UNSUPPORTED_FORMAT, source.file_span, message)
@@ -134,9 +144,14 @@ def _add_application(
 
 
 def _add_robot(
-    source: Source, out: Path, names: UniqueNames, plan: YarpPlan, report: Report
+    source: Source,
+    out: Path,
+    tags: frozenset[str],
+    names: UniqueNames,
+    plan: YarpPlan,
+    report: Report,
 ) -> None:
-    robot = read_robot(source, report)
+    robot = read_robot(source, report, tags)
     if robot is None:
         return
     name = _deployment_name(source.path, names)

@@ -130,7 +130,7 @@ class _Drafter:
             self.add(inner, prefix + nested.prefix, (*path, name))
 
     def _add_program(self, module: ModuleEntry, prefix: str) -> None:
-        program = module.name.replace("\\", "/").rpartition("/")[2]
+        program = module.name.split()[0].replace("\\", "/").rpartition("/")[2]
         name = self._names.claim(module.tag or re.sub(r"\.(exe|py|sh|lua)$", "", program))
         self._report_settings(module)
         self._draft.programs.append(
@@ -144,7 +144,7 @@ class _Drafter:
         )
 
     def _command(self, module: ModuleEntry) -> str:
-        words = [module.name, *split_arguments(module.parameters)]
+        words = split_arguments(f"{module.name} {module.parameters}")
         match module.deployer.lower():
             case "" | "local" | "yarprun":
                 pass
@@ -235,7 +235,7 @@ class _Drafter:
             self._report.add(codes.SETTING_DROPPED, entry.span, message)
         if (source, target) in self._connected:
             message = f"`{source}` is connected to `{target}` twice"
-            self._report.add(codes.SETTING_DROPPED, entry.span, message)
+            self._report.add(codes.SETTING_NOT_NEEDED, entry.span, message)
             return
         self._connected.add((source, target))
         carrier = entry.carrier

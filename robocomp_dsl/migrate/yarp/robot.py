@@ -16,7 +16,7 @@ from robocomp_dsl.migrate.yarp.device_plan import DevicePlanWriter
 from robocomp_dsl.migrate.yarp.device_types import DeviceRole, role_of
 from robocomp_dsl.migrate.yarp.joints import RobotJoints
 from robocomp_dsl.migrate.yarp.programs import UniqueNames
-from robocomp_dsl.migrate.yarp.robot_files import RobotDescription
+from robocomp_dsl.migrate.yarp.robot_files import YarpRobot
 from robocomp_dsl.migrate.yarp.world import world_text
 
 STEP = "    "
@@ -32,7 +32,7 @@ class MigratedRobot:
     world: str
 
 
-def migrate_robot(robot: RobotDescription, name: str, file: str, report: Report) -> MigratedRobot:
+def migrate_robot(robot: YarpRobot, name: str, file: str, report: Report) -> MigratedRobot:
     """The deployment `name` of a robot; `file` is its path, seen from the deployment."""
     names = UniqueNames()
     for port in _PORTS_OF_THE_WORLD:
@@ -58,9 +58,7 @@ def simulator_name(name: str) -> str:
     return f"{name}_simulator"
 
 
-def _text(
-    robot: RobotDescription, name: str, file: str, lines: list[str], *, has_world: bool
-) -> str:
+def _text(robot: YarpRobot, name: str, file: str, lines: list[str], *, has_world: bool) -> str:
     command = shlex.join(["yarprobotinterface", "--config", file])
     about = printable(robot.name).replace("*/", "* /")
     real = [

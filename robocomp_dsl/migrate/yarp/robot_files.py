@@ -49,26 +49,33 @@ class RobotDevice:
 
 
 @dataclass(slots=True)
-class RobotDescription:
-    """A robot. `reverses`: in interrupts and shutdown, levels run in decreasing order."""
+class YarpRobot:
+    """A robot. `reverses`: in interrupts and shutdown, levels run in decreasing order.
+
+    `tags` enable parts with one of them in `enabled_by`; `all` enables all parts.
+    """
 
     name: str
     prefix: str
     span: Span
     reverses: bool = False
+    tags: frozenset[str] = frozenset()
     devices: list[RobotDevice] = field(default_factory=list)
     files: list[Path] = field(default_factory=list)
 
 
-def read_robot(source: Source, report: Report) -> RobotDescription | None:
-    """The robot of a file; None if it has no root element."""
+def read_robot(
+    source: Source, report: Report, tags: frozenset[str] = frozenset()
+) -> YarpRobot | None:
+    """The robot of a file, with the parts that `tags` enable; None if it has no root element."""
     root = read_document(source, report)
     if root is None:
         return None
     name = attribute(root, "name") if name_of(root) == "robot" else ""
     stem = source.path.name.partition(".")[0]
     prefix = attribute(root, "portprefix") or name or stem
-    robot = RobotDescription(name or stem, f"/{prefix.strip('/')}", root.tag.span)
+    robot = YarpRobot(name or stem, f"/{prefix.strip('/')}", root.tag.span)
+    robot.tags = tags
     robot.reverses = attribute(root, "reverse-shutdown-action-order").lower() in ("true", "1")
     robot.files.append(source.path)
     reader = _Reader(robot, source.path.parent, report)
@@ -79,7 +86,7 @@ def read_robot(source: Source, report: Report) -> RobotDescription | None:
 class _Reader:
     """Adds the devices of files to a robot."""
 
-    def __init__(self, robot: RobotDescription, folder: Path, report: Report) -> None:
+    def __init__(self, robot: YarpRobot, folder: Path, report: Report) -> None:
         self._robot = robot
         self._folder = folder
         self._report = report
@@ -117,13 +124,18 @@ class _Reader:
 
     def _is_enabled(self, element: Element, path: str) -> bool:
         enabled, disabled = (attribute(element, f"{key}_by") for key in ("enabled", "disabled"))
-        if enabled:
-            message = f"`{path:.100}` is left out: it needs `--enable_tags ({enabled:.60})`"
-            self._report.add(codes.SETTING_DROPPED, element.tag.span, message)
-        elif disabled:
-            message = f"`{path:.100}` is included, unless `--disable_tags ({disabled:.60})`"
-            self._report.add(codes.SETTING_NOT_NEEDED, element.tag.span, message)
-        return not enabled
+        if not enabled or self._robot.tags & {"all", *enabled.split()}:
+            if disabled:
+                message = f"`{path:.100}` is included; `--disable_tags ({disabled:.60})` omitted it"
+                self._report.add(codes.SETTING_NOT_NEEDED, element.tag.span, message)
+            return True
+        self._report.add(
+            codes.SETTING_DROPPED,
+            element.tag.span,
+            f"`{path:.100}` is left out, because it is enabled by `{enabled:.60}`",
+            help=f"include it: `rcgen migrate --enable {enabled.split()[0]:.60} …`",
+        )
+        return False
 
     def _included(
         self, written: str, element: Element, source: Source

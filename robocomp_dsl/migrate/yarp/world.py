@@ -14,8 +14,9 @@ from robocomp_dsl.migrate.yarp.joints import RobotJoint
 _AXES = ("0 0 1", "0 1 0", "1 0 0")
 _SPACING_M = 0.3
 _LINK_M = 0.05
-_DAMPING, _ARMATURE = 0.1, 1
-"""Of joints; simulated motors need some inertia."""
+_DAMPING = 0.1
+_ARMATURES = {"hinge": 0.1, "slide": 1}
+"""Inertia of joints, in kg m² or kg: the simulated motors need some."""
 _LINK = (
     f'<geom type="capsule" size="0.015" fromto="0 0 0 0 0 {_LINK_M:g}" mass="0.1"'
     ' contype="0" conaffinity="0"/>'
@@ -69,7 +70,7 @@ def _joint(joint: RobotJoint, index: int) -> str:
     limits = f"{joint.lower:.6g} {joint.upper:.6g}"
     return (
         f'<joint name="{joint.name}" type="{kind}" axis="{_AXES[index % 3]}" range="{limits}"'
-        f' damping="{_DAMPING}" armature="{_ARMATURE}"/>'
+        f' damping="{_DAMPING}" armature="{_ARMATURES[kind]}"/>'
     )
 
 

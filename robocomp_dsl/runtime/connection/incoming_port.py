@@ -21,9 +21,9 @@ from robocomp_dsl.runtime.component.statistics import OperationCounts, Statistic
 from robocomp_dsl.runtime.component.thread_priority import ThreadPriority
 from robocomp_dsl.runtime.component.user_errors import log_failure
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.message_stamp import with_header_stamp
 from robocomp_dsl.runtime.connection.ports import OperationCallable
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, RejectedByReceiver, Timeout
-from robocomp_dsl.runtime.middleware.transport import ServerLost
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.losses import LossCounter
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 Handle: TypeAlias = Callable[[tuple[Any, ...]], Any]
 """Calls the handler with a tuple of arguments; returns its result, raises what it raises."""
 MAX_PENDING_NUMBERS = 32
-"""Numbers are evaluated in batches: this takes a fifth of the time of one by one."""
+"""Numbers are evaluated in batches: this takes a fifth of the time."""
 log = logging.getLogger("robocomp")
 
 
@@ -66,7 +66,7 @@ class IncomingOperation:
         self.losses = losses
         self.numbers: deque[bytes] = losses.pending if losses else deque(maxlen=1)
         self.counts: OperationCounts = port.statistics.of(port.at.port, operation.name)
-        self._handler = handler
+        self._handler = with_header_stamp(operation, handler)
         self.handle: Handle = self._handle()
 
     def _handle(self) -> Handle:
@@ -106,11 +106,14 @@ class IncomingOperation:
         return handle
 
     def handle_for_caller(
-        self, timeout: float, convert: Callable[[BaseException], BaseException]
+        self,
+        timeout: float,
+        convert: Callable[[BaseException], BaseException],
+        closed_error: type[Exception],
     ) -> Handle:
         """A function that calls the handler in the thread of its caller.
 
-        It raises `Timeout` if the callback group has no slot within `timeout` s, `ServerLost` if
+        It raises `Timeout` if the callback group has no slot within `timeout` s, `closed_error` if
         the port was closed, and `convert(error)` for an error of the handler.
         """
         counts, port, handler = self.counts, self._port, self._handler
@@ -120,11 +123,11 @@ class IncomingOperation:
 
         def handle(arguments: tuple[Any, ...]) -> Any:
             if port.closed:
-                raise ServerLost
+                raise closed_error
             calls = counts.calls + 1
             counts.calls = calls
             start = 0 if calls % durations.interval else perf_counter_ns()
-            # The second `acquire` parses its arguments: slower than the first one.
+            # The second `acquire` parses its arguments: slower than the first.
             if not (acquire(False) or acquire(True, timeout)):
                 raise Timeout(f"{port.at.name} was busy for {timeout:g} s")
             me = get_ident()

@@ -139,7 +139,7 @@ class TopicChannel:
                 port.publisher.attach(record)
             for rebind in self._rebind:
                 rebind()
-        # A thread may still be publishing with a former one: it is closed with the channel.
+        # A thread may still be publishing with a former publisher: it is closed with the channel.
         self._retired += former
         for publisher in former:
             for _, record in list(self._attached):
@@ -182,7 +182,7 @@ class TopicChannel:
         return current
 
     def _is_subscriber(self, record: PortRecord) -> bool:
-        """Whether a port on the same middleware subscribes to this one."""
+        """Whether a port on the same middleware subscribes to this port."""
         at = Endpoint(self._at.interface, record.component, record.port, record.peers)
         return (
             any(port.middleware == record.middleware for port in self._ports)

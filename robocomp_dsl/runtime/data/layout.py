@@ -4,7 +4,7 @@ In: a struct class whose leaves are numbers, bools and enums. Out: `RowLayout`.
 
 In XCDR1 every leaf is aligned to its size, counted from the start of the message; a struct has no
 alignment or padding of its own. So after the first element, which may start at another residue,
-all elements have the same layout and stride, and the last one has no trailing padding. The numpy
+all elements have the same layout and stride, and the last has no trailing padding. The numpy
 dtype has that layout, so elements are copied as one block.
 """
 

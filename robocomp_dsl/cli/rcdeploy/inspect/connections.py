@@ -94,4 +94,4 @@ def _external_connections(target: DomainTarget) -> list[ConnectionStatus]:
         answer = next(control.send_request(target.deployment, {"verb": "status"}))
     except (instances.Unavailable, StopIteration):
         return []
-    return [ConnectionStatus(**link) for link in answer["connections"]]
+    return [ConnectionStatus(**link) for link in answer.get("connections", ())]

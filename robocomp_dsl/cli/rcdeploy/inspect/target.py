@@ -95,7 +95,7 @@ def resolve_domain(deployment: str | None, domain: str | None) -> DomainTarget:
     from robocomp_dsl.cli.rcdeploy import running  # noqa: PLC0415 - only for deployments
 
     found = running.resolve_deployment(deployment)
-    return DomainTarget(found.domain, tuple(running.components(found)), found.name)
+    return DomainTarget(found.domain, tuple(running.answering_components(found)), found.name)
 
 
 @contextmanager

@@ -1,7 +1,7 @@
 """Addresses of ports on Ice.
 
 In: texts of users and of port records. Out: their parts. The record of a served port has one or
-two lines: the proxy for queries, and that for commands if it is another one.
+two lines: the proxy for queries, and that for commands if they differ.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ _ENDPOINT = re.compile(r"\s*(?:tcp|ssl|ws|wss|udp|default)\b")
 _TCP = re.compile(r"\s*(?:tcp|ssl|ws|wss|default)\b")
 _PORT = re.compile(r"\s-p\s*([0-9]{1,5})(?=\s|$)")
 _PROXY = re.compile(
-    r"\s*[^\s:@/]+(?:/[^\s:@/]+)?(?:\s+-[a-zA-Z]\S*)*\s*(?:@[^\s:]+\s*|:(.*)|)", re.DOTALL
+    r"\s*[^\s:@/]+(?:/[^\s:@/]+)?(?:\s+-[a-zA-Z](?:\s*[^\s:@-][^\s:@]*)?)*\s*(?:@[^\s:]+\s*|:(.*)|)",
+    re.DOTALL,
 )
 _IDENTITY = re.compile(r"\s*([^\s:@]+)\s*:(.*)", re.DOTALL)
 

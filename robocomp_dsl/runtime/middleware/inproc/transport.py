@@ -117,7 +117,7 @@ class InprocServiceClient:
             failure.__cause__ = error
             return failure
 
-        return served.handle_for_caller(self._timeout, convert)
+        return served.handle_for_caller(self._timeout, convert, ServerLost)
 
     def set_timeout(self, seconds: float) -> None:
         """See `ServiceClient`."""

@@ -5,10 +5,18 @@ In: texts of the command line and of records. Out: `RosAddress`, or `MiddlewareE
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.middleware.ros_common.names import absolute_name
+
+_NO_WORD = re.compile(r"[^A-Za-z0-9_/]")
+
+
+def own_name(name: str) -> str:
+    """The ROS name of a component or port: other characters than letters and digits are `_`."""
+    return "/" + _NO_WORD.sub("_", name.strip("/"))
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,6 +22,7 @@ from robocomp_dsl.runtime.middleware.ros1.failures import decode_failure
 from robocomp_dsl.runtime.middleware.ros1.handshake import Refused, exchange_headers
 from robocomp_dsl.runtime.middleware.ros1.node import RosNode
 from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Service, service_of, topic_of
+from robocomp_dsl.runtime.middleware.ros1.port_receiver import INDEX, frame, port_header
 from robocomp_dsl.runtime.middleware.ros1.publication import Publication
 from robocomp_dsl.runtime.middleware.ros1.service import read_reply
 from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, ConnectionLost, Stream
@@ -49,8 +50,10 @@ class Ros1Client:
         self._lock = threading.Lock()
         self._command_lock = threading.Lock()
         self._idle: dict[str, list[Stream]] = {}
+        """By service; a component needs one kind of connection."""
         self._opened: set[Stream] = set()
-        self._commands: dict[str, Stream] = {}
+        self._command_stream: Stream | None = None
+        self._port_header = port_header(node.name, self._address.name, at.interface)
         self._publications: dict[str, Publication] = {}
         self._cancelled = False
 
@@ -63,14 +66,18 @@ class Ros1Client:
     def _query(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         service = service_of(self._address.name, self._at.interface, operation)
         timeout, what = self._timeout, f"{self._server.name}.{operation.name}"
-        idle = self._idle.setdefault(operation.name, [])
+        header = self._port_header
+        prefix = INDEX.pack(self._at.interface.operations.index(operation))
+        if self._is_external:
+            header, prefix = _service_header(self._node.name, service), b""
+        idle = self._idle.setdefault(header.get("service", ""), [])
         is_ros, decode = service.is_ros, service.decode_reply
 
         def query(data: bytes) -> Any:
             deadline = time.monotonic() + timeout
-            stream = self._take_stream(idle, service, what, deadline, timeout)
+            stream = self._take_stream(idle, header, what, deadline, timeout)
             try:
-                stream.send(LENGTH.pack(len(data)), data)
+                stream.send(LENGTH.pack(len(prefix) + len(data)) + prefix, data)
                 counts.bytes_out += len(data)
                 is_ok, reply = read_reply(stream)
             except ConnectionLost as error:
@@ -94,7 +101,12 @@ class Ros1Client:
         return BoundOperation(service.encode_request, query)
 
     def _take_stream(
-        self, idle: list[Stream], service: Ros1Service, what: str, deadline: float, timeout: float
+        self,
+        idle: list[Stream],
+        header: dict[str, str],
+        what: str,
+        deadline: float,
+        timeout: float,
     ) -> Stream:
         """An idle connection that is still open, or a new one."""
         while True:
@@ -103,13 +115,6 @@ class Ros1Client:
                     raise ServerLost(self._server.name)
                 stream = idle.pop() if idle else None
             if stream is None:
-                header = {
-                    "callerid": self._node.name,
-                    "md5sum": service.type.md5,
-                    "persistent": "1",
-                    "service": service.name,
-                    "type": service.type.name,
-                }
                 stream = self._open(header, what, deadline, timeout)
             elif stream.is_closed():
                 self._drop(stream)
@@ -153,7 +158,7 @@ class Ros1Client:
         try:
             uri = str(api.call("lookupService", self._node.name, service))
             parts = urlsplit(uri)
-            return parts.hostname or "", parts.port or 0
+            found = parts.hostname or "", parts.port or 0
         except RosApiError as error:
             hint = "start the master with `roscore`" if error.is_unreachable else "start its node"
             raise NoServer(
@@ -164,6 +169,7 @@ class Ros1Client:
             raise NoServer(f"{self._at.port}: {service} has the address `{uri}`") from None
         finally:
             api.close()
+        return found
 
     def _command(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         topic = topic_of(self._address.name, self._at.interface, operation)
@@ -173,12 +179,12 @@ class Ros1Client:
             self._node.add_publication(publication)
             self._publications[operation.name] = publication
             return BoundOperation(topic.encode, self._publish(publication, counts))
-        header = {**publication.reply_header(), "publish_to": topic.name}
+        header, index = self._port_header, self._at.interface.operations.index(operation)
 
         def command(data: bytes) -> None:
             deadline = time.monotonic() + timeout
             with self._command_lock:
-                stream = self._commands.pop(operation.name, None)
+                stream, self._command_stream = self._command_stream, None
                 if stream is not None and stream.is_closed():
                     self._drop(stream)
                     raise ServerLost(self._server.name)
@@ -188,11 +194,11 @@ class Ros1Client:
                     stream = self._open(header, what, deadline, timeout)
                 stream.deadline = deadline
                 try:
-                    stream.send(*publication.frame(data))
+                    stream.send(*frame(index, publication.counter(), data))
                 except ConnectionLost as error:
                     self._drop(stream)
                     raise self._failure(error, what, timeout) from None
-                self._commands[operation.name] = stream
+                self._command_stream = stream
             counts.bytes_out += len(data)
 
         return BoundOperation(topic.encode, command)
@@ -256,6 +262,16 @@ class Ros1Client:
         self.cancel()
         for publication in self._publications.values():
             self._node.remove_publication(publication)
+
+
+def _service_header(node: str, service: Ros1Service) -> dict[str, str]:
+    return {
+        "callerid": node,
+        "md5sum": service.type.md5,
+        "persistent": "1",
+        "service": service.name,
+        "type": service.type.name,
+    }
 
 
 def _malformed(what: str, error: MalformedMessage) -> MalformedMessage:

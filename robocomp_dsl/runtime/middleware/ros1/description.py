@@ -1,7 +1,6 @@
 """What the middleware `ros1` can do."""
 
 from robocomp_dsl.runtime.middleware.capabilities import Capabilities, MiddlewareDescription
-from robocomp_dsl.runtime.middleware.ros_common.valid_names import VALID_NAMES
 
 MAX_MESSAGE_BYTES = 1 << 30
 """Larger messages are refused by the sender, and by the receiver."""
@@ -14,10 +13,8 @@ MIDDLEWARE = MiddlewareDescription(
         external_peers=True,
         fixed_address=True,
         attaches_subscribers=True,
-        latches=True,
         qos=frozenset({"reliable", "keep_all", "latched"}),
         max_message_bytes=MAX_MESSAGE_BYTES,
-        valid_names=VALID_NAMES,
     ),
     opener="robocomp_dsl.runtime.middleware.ros1.transport:open_transport",
     address_problem="robocomp_dsl.runtime.middleware.ros_common.valid_names:address_problem",

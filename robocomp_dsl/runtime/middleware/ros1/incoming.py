@@ -1,11 +1,10 @@
 """Receives the messages of one topic for one operation of a port.
 
-In: connections that bring messages. Out: arguments in the queue of the port.
+In: connections to publishers. Out: arguments in the queue of the port.
 """
 
 from __future__ import annotations
 
-import itertools
 import logging
 import threading
 from typing import Any
@@ -14,14 +13,12 @@ from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 from robocomp_dsl.runtime.connection.message_queue import MessageQueue
 from robocomp_dsl.runtime.errors import MalformedMessage
-from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.handshake import refusal
 from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Topic, topic_of
 from robocomp_dsl.runtime.middleware.ros1.output_link import link_numbers
 from robocomp_dsl.runtime.middleware.ros1.tcpros import ConnectionLost, Stream
 
 log = logging.getLogger("robocomp")
-_ids = itertools.count()
 
 
 class Connection:
@@ -75,12 +72,6 @@ class TopicReceiver:
         """Why a publisher cannot be connected; empty if it can."""
         return refusal(self.topic.name, self.topic.type, header, "publishes")
 
-    def accept(self, stream: Stream, header: dict[str, str]) -> None:
-        """Receive from a component that has connected, until it ends."""
-        reply = {key: self.header()[key] for key in ("callerid", "md5sum", "type")}
-        stream.send(tcpros.encode_header(reply))
-        self.receive(stream, header.get("callerid", "a component"))
-
     def receive(self, stream: Stream, peer: str) -> None:
         """Receive until the connection ends, which raises `ConnectionLost`."""
         connection = Connection(stream, peer)
@@ -96,8 +87,7 @@ class TopicReceiver:
             stream.close()
 
     def _receive(self, connection: Connection) -> None:
-        served, put, decode = self._served, self._queue.put, self.topic.decode
-        counts, handle, frame = served.counts, served.handle, connection.stream.frame
+        frame = connection.stream.frame
         while True:
             try:
                 data = frame()
@@ -105,13 +95,18 @@ class TopicReceiver:
                 self._malformed(connection.peer, error)
                 raise ConnectionLost(str(error)) from None
             connection.messages_in += 1
-            counts.bytes_in += len(data)
-            try:
-                arguments = decode(data)
-            except MalformedMessage as error:
-                self._malformed(connection.peer, error)
-            else:
-                put(served, handle, arguments)
+            self.handle(data, connection.peer)
+
+    def handle(self, data: Any, peer: str) -> None:
+        """Pass one message to the queue, or report it as malformed."""
+        served = self._served
+        served.counts.bytes_in += len(data)
+        try:
+            arguments = self.topic.decode(data)
+        except MalformedMessage as error:
+            self._malformed(peer, error)
+        else:
+            self._queue.put(served, served.handle, arguments)
 
     def _malformed(self, peer: str, error: MalformedMessage) -> None:
         located = MalformedMessage(

@@ -10,7 +10,7 @@ import logging
 import socket
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
 from robocomp_dsl.runtime.component.throttle import Throttle
@@ -19,7 +19,7 @@ from robocomp_dsl.runtime.errors import MalformedMessage, MiddlewareError
 from robocomp_dsl.runtime.middleware.ros1.handshake import refuse
 from robocomp_dsl.runtime.middleware.ros1.tcpros import ConnectionLost, Stream, failure_reason
 
-MAX_CONNECTIONS = 512
+MAX_CONNECTIONS = 2048
 """Connections of one node at a time; further ones are closed at once."""
 HEADER_S = 5.0
 """A peer that has connected sends its header within this time."""
@@ -31,7 +31,7 @@ log = logging.getLogger("robocomp")
 class Listener:
     """Raises `MiddlewareError` if it cannot listen."""
 
-    def __init__(self, node: str, host: str, handlers: dict[str, Handler]) -> None:
+    def __init__(self, node: str, host: str, handlers: Mapping[str, Handler]) -> None:
         self._node = node
         self._handlers = handlers
         self._throttle = Throttle()

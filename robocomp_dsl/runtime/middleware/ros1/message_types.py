@@ -1,8 +1,8 @@
 """The ROS 1 types of structs: name, md5 and definition, which peers compare.
 
-In: structs that were imported from `.msg` and `.srv` files in the form of ROS 2. Out: `Ros1Type`, or
-`InterfaceMismatch` if ROS 1 defines the type otherwise. Known types are those of ROS Noetic in the
-library rosbags; others are those of `definitions`, or follow from the struct (genmsg, gentools).
+In: structs that were imported from `.msg` and `.srv` files in the form of ROS 2. Out: `Ros1Type`,
+or `InterfaceMismatch` if ROS 1 defines the type otherwise. Known types are those of ROS Noetic in
+the library rosbags; others are those of `definitions`, or follow from the struct (genmsg).
 """
 
 from __future__ import annotations

@@ -7,35 +7,36 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.runtime.middleware.ros1.addresses import own_name
 from robocomp_dsl.runtime.middleware.ros1.handshake import refuse
-from robocomp_dsl.runtime.middleware.ros1.incoming import TopicReceiver
+from robocomp_dsl.runtime.middleware.ros1.incoming import Connection, TopicReceiver
 from robocomp_dsl.runtime.middleware.ros1.listener import Listener
 from robocomp_dsl.runtime.middleware.ros1.node_api import NodeApi
+from robocomp_dsl.runtime.middleware.ros1.port_receiver import PORT_KEY, PortReceiver
 from robocomp_dsl.runtime.middleware.ros1.publication import Publication
 from robocomp_dsl.runtime.middleware.ros1.registration import Registration
 from robocomp_dsl.runtime.middleware.ros1.service import ServiceServer
 from robocomp_dsl.runtime.middleware.ros1.settings import Ros1Settings
 from robocomp_dsl.runtime.middleware.ros1.subscription import TopicSubscription
 from robocomp_dsl.runtime.middleware.ros1.tcpros import Stream
-from robocomp_dsl.runtime.middleware.ros_common.names import absolute_name
 
 
 class RosNode:
     """One node. Raises `MiddlewareError` if it cannot listen."""
 
     def __init__(self, component: str, settings: Ros1Settings, fail: Callable[[str], None]) -> None:
-        self.name = absolute_name(component, "component")
+        self.name = own_name(component)
         self.master = settings.master
         self.host = settings.host
         self._fail = fail
         self._lock = threading.Lock()
         self._publications: dict[str, Publication] = {}
         self._subscriptions: dict[str, list[TopicSubscription]] = {}
-        self._receivers: dict[str, TopicReceiver] = {}
+        self._ports: dict[str, list[PortReceiver]] = {}
         self._services: dict[str, ServiceServer] = {}
         self.on_parameter: Callable[[str, Any], None] = lambda _key, _value: None
         handlers = {
-            "publish_to": self._accept_publisher,
+            PORT_KEY: self._accept_component,
             "service": self._accept_client,
             "topic": self._accept_subscriber,
         }
@@ -45,6 +46,7 @@ class RosNode:
         except MiddlewareError:
             self.listener.close()
             raise
+        self.api_uri = self._api.uri
         service_uri = f"rosrpc://{settings.host}:{self.listener.number}"
         self.registration = Registration(self.name, self._api.uri, service_uri, settings.master)
 
@@ -68,12 +70,11 @@ class RosNode:
         publication.close()
 
     def add_subscription(self, receiver: TopicReceiver) -> TopicSubscription:
-        """Receive a topic, from publishers of ROS and from components that connect."""
+        """Receive a topic of ROS."""
         topic = receiver.topic
         subscription = TopicSubscription(receiver, self.name)
         with self._lock:
             self._subscriptions.setdefault(topic.name, []).append(subscription)
-            self._receivers.setdefault(topic.name, receiver)
         self.registration.add(
             "Subscriber",
             topic.name,
@@ -90,10 +91,6 @@ class RosNode:
             self._subscriptions[name] = remaining
             if not remaining:
                 del self._subscriptions[name]
-            if self._receivers.get(name) is subscription.receiver:
-                del self._receivers[name]
-                if remaining:
-                    self._receivers[name] = remaining[0].receiver
         if not remaining:
             self.registration.remove("Subscriber", name)
         subscription.close()
@@ -112,6 +109,20 @@ class RosNode:
         self.registration.remove("Service", server.service.name)
         server.close()
 
+    def add_port(self, receiver: PortReceiver) -> None:
+        """Let components connect to a port."""
+        with self._lock:
+            several = self._ports.get(receiver.name, [])
+            self._ports[receiver.name] = [*several, receiver]
+
+    def remove_port(self, receiver: PortReceiver) -> None:
+        """Undo `add_port`."""
+        with self._lock:
+            several = self._ports.pop(receiver.name, [])
+            if remaining := [each for each in several if each is not receiver]:
+                self._ports[receiver.name] = remaining
+        receiver.close()
+
     def _accept_subscriber(self, stream: Stream, header: dict[str, str]) -> bool:
         publication = self._publications.get(header["topic"])
         if publication is None:
@@ -124,16 +135,18 @@ class RosNode:
         publication.accept(stream, header.get("callerid", "a node"))
         return True
 
-    def _accept_publisher(self, stream: Stream, header: dict[str, str]) -> bool:
-        receiver = self._receivers.get(header["publish_to"])
-        if receiver is None:
-            refuse(stream, f"{self.name} does not receive {header['publish_to']}")
+    def _accept_component(self, stream: Stream, header: dict[str, str]) -> bool:
+        several = self._ports.get(header[PORT_KEY], [])
+        if not several:
+            refuse(stream, f"{self.name} has no port {header[PORT_KEY]}")
             return False
-        if reason := receiver.refusal(header):
-            refuse(stream, reason)
-            self.listener.report(reason, f"refused a publisher: {reason}")
-            return False
-        receiver.accept(stream, header)
+        refusals = [receiver.refusal(header) for receiver in several]
+        for receiver, reason in zip(several, refusals, strict=True):
+            if not reason:
+                receiver.accept(stream, header)
+                return False
+        refuse(stream, refusals[0])
+        self.listener.report(refusals[0], f"refused a component: {refusals[0]}")
         return False
 
     def _accept_client(self, stream: Stream, header: dict[str, str]) -> bool:
@@ -150,8 +163,8 @@ class RosNode:
 
     def subscriptions(self) -> list[tuple[str, str]]:
         """See `NodeState`."""
-        receivers = list(self._receivers.values())
-        return [(each.topic.name, each.topic.type.name) for each in receivers]
+        topics = [several[0].receiver.topic for several in list(self._subscriptions.values())]
+        return [(topic.name, topic.type.name) for topic in topics]
 
     def bus_info(self) -> list[list[Any]]:
         """See `NodeState`."""
@@ -162,10 +175,19 @@ class RosNode:
         ]
         rows += [
             [connection.number, connection.peer, "i", "TCPROS", name, True]
-            for name, receiver in list(self._receivers.items())
-            for connection in receiver.connections
+            for name, connection in self._connections()
         ]
         return rows
+
+    def _connections(self) -> list[tuple[str, Connection]]:
+        """All incoming connections, by topic or port."""
+        ends: list[tuple[str, TopicReceiver | PortReceiver]] = [
+            (name, each.receiver)
+            for name, several in list(self._subscriptions.items())
+            for each in several
+        ]
+        ends += [(name, port) for name, several in list(self._ports.items()) for port in several]
+        return [(name, connection) for name, end in ends for connection in end.connections]
 
     def bus_stats(self) -> list[list[Any]]:
         """See `NodeState`."""
@@ -175,11 +197,8 @@ class RosNode:
             rows = [[n.number, n.bytes_out, n.messages_out, n.is_connected] for n in links]
             published.append([name, sum(link.bytes_out for link in links), rows])
         received = [
-            [
-                name,
-                [[c.number, c.stream.bytes_in, c.messages_in, 0, True] for c in r.connections],
-            ]
-            for name, r in list(self._receivers.items())
+            [name, [[c.number, c.stream.bytes_in, c.messages_in, 0, True]]]
+            for name, c in self._connections()
         ]
         served = [sum(each.requests for each in list(self._services.values())), 0, 0]
         return [published, received, served]
@@ -212,8 +231,14 @@ class RosNode:
             publications = list(self._publications.values())
             subscriptions = [s for several in self._subscriptions.values() for s in several]
             services = list(self._services.values())
-            for table in (self._publications, self._subscriptions, self._services):
-                table.clear()
-            self._receivers.clear()
-        for closable in (*publications, *subscriptions, *services, self._api, self.listener):
-            closable.close()
+            ports = [port for several in self._ports.values() for port in several]
+        for port in ports:
+            port.close()
+        for service in services:
+            service.close()
+        for subscription in subscriptions:
+            subscription.close()
+        for publication in publications:
+            publication.close()
+        self._api.close()
+        self.listener.close()

@@ -7,7 +7,7 @@ express has a type of its own, which only components know: its md5 is that of it
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from functools import cached_property
 from hashlib import md5
 from typing import Any
 
@@ -29,27 +29,56 @@ from robocomp_dsl.runtime.middleware.ros_common.names import operation_name
 _PACKAGE = "robocomp_dsl"
 
 
-@dataclass(frozen=True, slots=True)
 class Ros1Topic:
-    """The topic of a publication or command. `encode` omits the counter of a header."""
+    """The topic of a publication or command. `type.counts`: `encode` omits the counter."""
 
-    name: str
-    type: Ros1Type
-    encode: Callable[[tuple[Any, ...]], bytes]
-    decode: Callable[[Any], tuple[Any, ...]]
+    def __init__(self, name: str, type_: Ros1Type, operation: Operation) -> None:
+        self.name = name
+        self.type = type_
+        self._inputs = operation.inputs
+
+    @cached_property
+    def encode(self) -> Callable[[tuple[Any, ...]], bytes]:
+        """Arguments to the body of a message; raises `EncodeError`."""
+        omits = self.type.counts
+        return _limited(encoder_function(self._inputs, "tuple", wire=ROS1, omits_seq=omits))
+
+    @cached_property
+    def decode(self) -> Callable[[Any], tuple[Any, ...]]:
+        """The body of a message, with the counter, to arguments; raises `MalformedMessage`."""
+        return decoder_function(self._inputs, "tuple", ROS1)
 
 
-@dataclass(frozen=True, slots=True)
 class Ros1Service:
     """The service of a query. `is_ros`: programs of ROS know its type."""
 
-    name: str
-    type: Ros1Type
-    is_ros: bool
-    encode_request: Callable[[tuple[Any, ...]], bytes]
-    decode_request: Callable[[Any], tuple[Any, ...]]
-    encode_reply: Callable[[Any], bytes]
-    decode_reply: Callable[[Any], Any]
+    def __init__(self, name: str, type_: Ros1Type, operation: Operation, *, is_ros: bool) -> None:
+        self.name = name
+        self.type = type_
+        self.is_ros = is_ros
+        self._operation = operation
+        outputs = len(operation.outputs)
+        self._form = "tuple" if outputs > 1 else "one" if outputs else "none"
+
+    @cached_property
+    def encode_request(self) -> Callable[[tuple[Any, ...]], bytes]:
+        """Arguments to bytes; raises `EncodeError`."""
+        return _limited(encoder_function(self._operation.inputs, "tuple", wire=ROS1))
+
+    @cached_property
+    def decode_request(self) -> Callable[[Any], tuple[Any, ...]]:
+        """Bytes to arguments; raises `MalformedMessage`."""
+        return decoder_function(self._operation.inputs, "tuple", ROS1)
+
+    @cached_property
+    def encode_reply(self) -> Callable[[Any], bytes]:
+        """The result of a handler to bytes; raises `EncodeError`."""
+        return _limited(encoder_function(self._operation.outputs, self._form, wire=ROS1))
+
+    @cached_property
+    def decode_reply(self) -> Callable[[Any], Any]:
+        """Bytes to the result of a proxy; raises `MalformedMessage`."""
+        return decoder_function(self._operation.outputs, self._form, ROS1)
 
 
 def topic_of(name: str, interface: Interface, operation: Operation) -> Ros1Topic:
@@ -58,30 +87,18 @@ def topic_of(name: str, interface: Interface, operation: Operation) -> Ros1Topic
         type_ = message_types.message_type(topic_type(operation).struct)
     except NotRosType:
         type_ = _own_type(interface, operation)
-    encode = encoder_function(operation.inputs, "tuple", wire=ROS1, omits_seq=type_.counts)
-    decode = decoder_function(operation.inputs, "tuple", ROS1)
-    return Ros1Topic(operation_name(name, interface, operation), type_, _limited(encode), decode)
+    return Ros1Topic(operation_name(name, interface, operation), type_, operation)
 
 
 def service_of(name: str, interface: Interface, operation: Operation) -> Ros1Service:
     """The service of an operation; `name` is that of the port. Raises `InterfaceMismatch`."""
+    full_name = operation_name(name, interface, operation)
     try:
         found = service_type(operation)
     except NotRosType:
-        type_, is_ros = _own_type(interface, operation), False
-    else:
-        type_, is_ros = message_types.service_type(found.request, found.response), True
-    outputs = operation.outputs
-    form = "tuple" if len(outputs) > 1 else "one" if outputs else "none"
-    return Ros1Service(
-        operation_name(name, interface, operation),
-        type_,
-        is_ros,
-        _limited(encoder_function(operation.inputs, "tuple", wire=ROS1)),
-        decoder_function(operation.inputs, "tuple", ROS1),
-        _limited(encoder_function(outputs, form, wire=ROS1)),
-        decoder_function(outputs, form, ROS1),
-    )
+        return Ros1Service(full_name, _own_type(interface, operation), operation, is_ros=False)
+    type_ = message_types.service_type(found.request, found.response)
+    return Ros1Service(full_name, type_, operation, is_ros=True)
 
 
 def _own_type(interface: Interface, operation: Operation) -> Ros1Type:

@@ -1,8 +1,6 @@
 """A published topic: its subscribers, each with a link.
 
-Subscribers of ROS connect to the node; those of components are connected by the publisher, which
-tells with the header field `publish_to` what it will send. A latched topic sends its latest message
-to every new subscriber.
+Subscribers connect to the node. A latched topic sends its latest message to each new one.
 """
 
 from __future__ import annotations
@@ -13,12 +11,11 @@ from itertools import count
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.middleware.ros1 import tcpros
-from robocomp_dsl.runtime.middleware.ros1.handshake import exchange_headers, refusal
+from robocomp_dsl.runtime.middleware.ros1.handshake import refusal
 from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Topic
 from robocomp_dsl.runtime.middleware.ros1.output_link import Frame, OutputLink
-from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, ConnectionLost, Stream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, Stream
 
-CONNECT_S = 2.0
 _MAX_COUNT = 1 << 32
 
 
@@ -61,23 +58,6 @@ class Publication:
         stream.send(tcpros.encode_header(self.reply_header()))
         self._add(OutputLink(peer, self._qos, stream=stream, on_end=self._remove))
 
-    def dial(self, host: str, number: int, name: str) -> OutputLink:
-        """Connect to a component that receives the topic as `name`, also after it restarted."""
-
-        def open_stream() -> Stream:
-            stream = tcpros.connect(host, number, CONNECT_S)
-            header = {**self.reply_header(), "publish_to": name}
-            try:
-                exchange_headers(stream, header, CONNECT_S)
-            except ConnectionLost:
-                stream.close()
-                raise
-            return stream
-
-        link = OutputLink(name, self._qos, open_stream=open_stream)
-        self._add(link)
-        return link
-
     def _add(self, link: OutputLink) -> None:
         with self._lock:
             self._links += (link,)
@@ -89,21 +69,18 @@ class Publication:
         with self._lock:
             self._links = tuple(each for each in self._links if each is not link)
 
-    def drop(self, link: OutputLink) -> None:
-        """End one link."""
-        self._remove(link)
-        link.close()
+    def counter(self) -> bytes:
+        """The next counter for the header of a message; empty if it has none."""
+        if not self.topic.type.counts:
+            return b""
+        return LENGTH.pack(next(self._numbers) % _MAX_COUNT)
 
-    def frame(self, data: bytes) -> Frame:
-        """A message with its length, and the counter of its header."""
-        if self.topic.type.counts:
-            number = next(self._numbers) % _MAX_COUNT
-            return LENGTH.pack(len(data) + 4) + LENGTH.pack(number), data
-        return LENGTH.pack(len(data)), data
-
-    def publish(self, data: bytes, counts: OperationCounts) -> None:
-        """Send a message to all subscribers."""
-        frame = self.frame(data)
+    def publish(self, data: bytes, counts: OperationCounts, counter: bytes | None = None) -> None:
+        """Send a message to all subscribers, with this counter, else the next."""
+        if not self._links and not self._qos.latched:
+            return
+        counter = self.counter() if counter is None else counter
+        frame = LENGTH.pack(len(counter) + len(data)) + counter, data
         if self._qos.latched:
             with self._lock:
                 self._latest = frame

@@ -15,7 +15,7 @@ from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.failures import encode_failure
 from robocomp_dsl.runtime.middleware.ros1.handshake import refusal, refuse
 from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Service, service_of
-from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, ConnectionLost, Stream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, Stream
 
 _OK, _FAILED = b"\x01", b"\x00"
 
@@ -61,7 +61,6 @@ class ServiceServer:
         return ""
 
     def _serve(self, stream: Stream, *, is_persistent: bool) -> None:
-        counts = self._served.counts
         while True:
             try:
                 data = stream.frame()
@@ -69,17 +68,18 @@ class ServiceServer:
                 self._served.report(error)
                 stream.send(*self._failure(error))
                 return
-            counts.bytes_in += len(data)
-            self.requests += 1
-            buffers = self._reply(data)
+            buffers = self.reply(data)
             if self._closed:
                 return  # the caller learns that the server ended
             stream.send(*buffers)
             if not is_persistent:
                 return
 
-    def _reply(self, data: Any) -> tuple[bytes, bytes]:
+    def reply(self, data: Any, _peer: str = "") -> tuple[bytes, bytes]:
+        """The reply to a request. Never raises."""
         service, served = self.service, self._served
+        served.counts.bytes_in += len(data)
+        self.requests += 1
         try:
             reply = service.encode_reply(served.handle(service.decode_request(data)))
         except BaseException as error:
@@ -105,6 +105,3 @@ def read_reply(stream: Stream) -> tuple[bool, bytes | memoryview]:
     """Whether a call succeeded, and the reply or the text. Raises as `Stream.frame`."""
     is_ok = bool(stream.take(1)[0])
     return is_ok, stream.frame()
-
-
-__all__ = ["ConnectionLost", "ServiceServer", "read_reply"]

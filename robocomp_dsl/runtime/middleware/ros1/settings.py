@@ -1,4 +1,4 @@
-"""The settings of `ros1`. In: texts of the command line and the environment. Out: checked values."""
+"""The settings of `ros1`. In: texts of command line and environment. Out: checked values."""
 
 from __future__ import annotations
 

@@ -135,7 +135,7 @@ class Stream:
 
     def _take_large(self, size: int) -> memoryview:
         try:
-            target = memoryview(np.empty(size, np.uint8)).cast("B")
+            target = np.empty(size, np.uint8).data
         except MemoryError:
             raise ConnectionLost(f"there is no memory for a message of {size} bytes") from None
         filled = len(self._buffer) - self._at
