@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import dropwhile, takewhile
 
 from robocomp_dsl.language_server.completion.context import CompletionContext
-from robocomp_dsl.language_server.symbols.bridge_names import BridgeNames
+from robocomp_dsl.language_server.symbols.bridge_declarations import BridgeDeclarations
 from robocomp_dsl.language_server.symbols.bridge_types import (
     BridgeMember,
     element_of,
@@ -56,7 +56,7 @@ def _in_list(context: CompletionContext) -> bool:
 
 
 def value_path_members(
-    context: CompletionContext, names: BridgeNames, service: str
+    context: CompletionContext, names: BridgeDeclarations, service: str
 ) -> Iterator[BridgeMember]:
     """The members of the path before the cursor, such as `imu.angular_velocity.`."""
     path: list[Token] = []
@@ -75,7 +75,7 @@ def _ends_path(path: Sequence[Token], token: Token) -> bool:
     return bool(path) and token.kind == "ID" and path[0].kind == "ID"
 
 
-def target_members(context: CompletionContext, names: BridgeNames) -> Iterator[BridgeMember]:
+def target_members(context: CompletionContext, names: BridgeDeclarations) -> Iterator[BridgeMember]:
     """What may be assigned to: the fields of a message, a reply or the arguments of a call."""
     statement = list(context.statement)
     block = context.block
@@ -89,7 +89,7 @@ def target_members(context: CompletionContext, names: BridgeNames) -> Iterator[B
         yield from members_of(owner) if statement else members
 
 
-def target_type(context: CompletionContext, names: BridgeNames) -> object:
+def target_type(context: CompletionContext, names: BridgeDeclarations) -> object:
     """The type of the field that the statement at the cursor assigns to."""
     path = list(takewhile(lambda token: token.kind != "EQUAL", context.statement))
     return _follow_members(_block_members(context, names), path)
@@ -108,7 +108,7 @@ def _follow_members(members: Iterable[BridgeMember], path: Sequence[Token]) -> o
     return owner
 
 
-def _block_members(context: CompletionContext, names: BridgeNames) -> Iterable[BridgeMember]:
+def _block_members(context: CompletionContext, names: BridgeDeclarations) -> Iterable[BridgeMember]:
     """The fields that the statements of the innermost block assign to."""
     written = _written_type(context)
     match context.block_kind:

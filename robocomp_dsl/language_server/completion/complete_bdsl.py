@@ -24,7 +24,7 @@ from robocomp_dsl.language_server.completion.context import CompletionContext
 from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.language_server.signatures.signatures_bdsl import format_function, value_text
 from robocomp_dsl.language_server.signatures.signatures_idsl import format_operation
-from robocomp_dsl.language_server.symbols.bridge_names import BridgeNames
+from robocomp_dsl.language_server.symbols.bridge_declarations import BridgeDeclarations
 from robocomp_dsl.language_server.symbols.bridge_types import BridgeMember
 from robocomp_dsl.language_server.symbols.symbols_bdsl import bridge_names, member_symbol
 from robocomp_dsl.model import types
@@ -108,7 +108,7 @@ def _ros_services(modules: list[Module], *, qualified: bool) -> Iterator[Complet
                     yield CompletionCandidate(label, lsp.CompletionItemKind.Interface, "service")
 
 
-def _values(context: CompletionContext, names: BridgeNames) -> Iterator[CompletionCandidate]:
+def _values(context: CompletionContext, names: BridgeDeclarations) -> Iterator[CompletionCandidate]:
     """Names in an expression; behind a dot the fields of what is before it."""
     service = _service(context)
     if context.previous_kind == "DOT":

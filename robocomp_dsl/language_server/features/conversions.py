@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from lsprotocol import types as lsp
 
 from robocomp_dsl.language_server.positions import PositionCodec
-from robocomp_dsl.language_server.symbols.bridge_names import expressions_of
+from robocomp_dsl.language_server.symbols.bridge_declarations import expressions_of
 from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.model.bridge_values import Converted
 from robocomp_dsl.source import Span

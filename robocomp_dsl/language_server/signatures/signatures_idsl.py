@@ -78,7 +78,7 @@ def _dictionary(dictionary: types.Dictionary) -> str:
 
 
 def _alias(alias: types.Alias) -> str:
-    return f"typedef {type_name(alias.target)} {alias.name};" + _referenced_signature(alias.target)
+    return f"typedef {type_name(alias.target)} {alias.name};" + referenced_signature(alias.target)
 
 
 def _module(module: Module) -> str:

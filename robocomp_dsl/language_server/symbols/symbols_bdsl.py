@@ -11,7 +11,10 @@ from robocomp_dsl.check.passes import check_bdsl
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.language_server.symbols.bridge_names import BridgeNames, expressions_of
+from robocomp_dsl.language_server.symbols.bridge_declarations import (
+    BridgeDeclarations,
+    expressions_of,
+)
 from robocomp_dsl.language_server.symbols.bridge_types import (
     BridgeMember,
     DeclaredTypes,
@@ -60,12 +63,12 @@ def import_scope_of(file: Parsed[ast.File], workspace: Workspace) -> ImportScope
     return workspace.modules.import_scope(file, links)
 
 
-def bridge_names(checks: Sequence[Check], path: Path, workspace: Workspace) -> BridgeNames:
+def bridge_names(checks: Sequence[Check], path: Path, workspace: Workspace) -> BridgeDeclarations:
     """The names of some versions of the file at `path`. Raises `UnreadableSource`."""
     models = [check.model for check in checks]
     trees = [check.tree for check in checks]
     file = workspace.sources.parse(path, parse_bdsl)
-    return BridgeNames(
+    return BridgeDeclarations(
         [model for model in models if isinstance(model, Bridge)],
         [tree.bridge for tree in trees if isinstance(tree, ast.File) and tree.bridge],
         DeclaredTypes(import_scope_of(file, workspace)),
@@ -90,7 +93,7 @@ class _OccurrenceCollector:
         self._tree = tree
         self._bridge = bridge
         self._types = DeclaredTypes(scope)
-        self._names = BridgeNames([bridge] if bridge else [], [tree], self._types)
+        self._names = BridgeDeclarations([bridge] if bridge else [], [tree], self._types)
         self._scope = scope
         self._values: dict[str, Symbol] = {}
         self._functions: dict[str, Symbol] = {}

@@ -15,7 +15,7 @@ from robocomp_dsl.model.bridge_values import BridgeCall, BridgeHub, Expression
 from robocomp_dsl.syntax.ast import bdsl as ast
 
 
-class BridgeNames:
+class BridgeDeclarations:
     """The declarations of some versions of one bridge; the first version that has a name counts."""
 
     def __init__(
