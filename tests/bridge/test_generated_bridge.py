@@ -245,3 +245,37 @@ def test_bridge_continues_within_two_seconds_after_restart_of_yarp_program(
             seen.clear()
             wait_until(lambda push=push: (push(np.ones(1)), seen)[1])  # type: ignore[misc]
             source.close()
+
+
+IMAGE = """
+import "sensor_msgs/msg/Image.msg";
+
+Bridge camera
+{
+    input eye : sensor_msgs::Image over zenoh at "source";
+    output picture : sensor_msgs::Image over zenoh = eye { header.frame_id = "eye"; };
+};
+"""
+
+
+def test_bridge_does_not_copy_image_and_keeps_received_message_unchanged(
+    rcgen: Rcgen, tmp_path: Path, domain: str, peer: Peers
+) -> None:
+    folder = generate(rcgen, tmp_path, IMAGE)
+    with running(folder, "--domain", domain) as worker:
+        interface = type(worker.picture_proxy).INTERFACE
+        image_type = interface.operations[0].inputs[0][1]
+        received = next(port for port in worker.SPEC.subscribes if port.name == "eye").interface
+        source = Peer("source", domain, "zenoh")
+        push = source.publisher(received, "eye")
+        heard = peer("zenoh", shares_domain=True).subscribe(interface, "p", "camera.picture")
+        image = image_type(width=1000, height=1000, data=np.arange(10**6, dtype=np.uint8))
+        wait_until(lambda: (push(image), heard)[1])
+        assert heard[0].header.frame_id == "eye"
+        assert np.array_equal(heard[0].data, image.data)
+        bridge = worker.bridge
+        eye, output = bridge.inputs["eye"], bridge.outputs["picture"]
+        (message,) = output._build(output._context, worker, (eye.newest.value,))
+        assert message.data is eye.newest.value.data
+        assert eye.newest.value.header.frame_id == ""
+        source.close()
