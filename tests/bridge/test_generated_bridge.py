@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import re
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,8 +14,9 @@ import pytest
 
 from robocomp_dsl.runtime import publishing_stamp
 from robocomp_dsl.runtime import types as rt
+from robocomp_dsl.runtime.bridge.context import MessageContext
 from robocomp_dsl.runtime.middleware.yarp.name_server import NameServer
-from tests.bridge.bridge_run import NUMBERS, Peer, generate, running
+from tests.bridge.bridge_run import NUMBERS, Peer, generate, load_worker, running
 from tests.cli.rcgen_run import Rcgen
 from tests.support.waiting import wait_until
 
@@ -279,3 +282,59 @@ def test_bridge_does_not_copy_image_and_keeps_received_message_unchanged(
         assert message.data is eye.newest.value.data
         assert eye.newest.value.header.frame_id == ""
         source.close()
+
+
+WORDS = [
+    "class",
+    "lambda",
+    "self",
+    "at",
+    "user",
+    "values",
+    "message",
+    "np",
+    "int",
+    "list",
+    "Any",
+    "rt",
+    "copy",
+    "mapping",
+    "bridge",
+    "log",
+    "initialize",
+    "compute",
+    "params",
+    "get",
+    "BridgeWorker",
+    "JointState",
+    "Time",
+    "None",
+    "object",
+    "import",
+    "field",
+    "len",
+]
+
+
+def test_bridge_names_never_hide_names_of_generated_code(rcgen: Rcgen, tmp_path: Path) -> None:
+    parts = "".join(
+        f"input {word} : double[] [deg] over zenoh;\n"
+        f"hub {word}_hub = {word};\n"
+        f"function {word}_function(double[] {word} [rad]) -> double[] [rad];\n"
+        f"output {word}_output : sensor_msgs::JointState over zenoh {{ header.stamp = now;"
+        f" position = {word}_hub to [rad]; effort = {{ counter, length({word}) }}; }};\n"
+        f"output {word}_called : double[] [rad] over zenoh = {word}_function({word});\n"
+        for word in WORDS
+    )
+    text = f'import "sensor_msgs/msg/JointState.msg";\nBridge words {{\n{parts}}};\n'
+    worker = load_worker(generate(rcgen, tmp_path, text))
+    mapping = sys.modules["words_generated.mapping"]
+    context = MessageContext(lambda _: 0)
+    for word in WORDS:
+        build = getattr(mapping, f"output_{word}_output")
+        names = inspect.signature(build).parameters
+        sets = [(np.array([180.0]),)] * (len(names) - 2)
+        (message,) = build(context, worker(), *sets)
+        assert message.position.tolist() == pytest.approx([math.pi])
+        assert message.effort.tolist() == [0, 1]
+        assert hasattr(worker, f"{word}_function")
