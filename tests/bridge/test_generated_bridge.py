@@ -284,36 +284,10 @@ def test_bridge_does_not_copy_image_and_keeps_received_message_unchanged(
         source.close()
 
 
-WORDS = [
-    "class",
-    "lambda",
-    "self",
-    "at",
-    "user",
-    "values",
-    "message",
-    "np",
-    "int",
-    "list",
-    "Any",
-    "rt",
-    "copy",
-    "mapping",
-    "bridge",
-    "log",
-    "initialize",
-    "compute",
-    "params",
-    "get",
-    "BridgeWorker",
-    "JointState",
-    "Time",
-    "None",
-    "object",
-    "import",
-    "field",
-    "len",
-]
+WORDS = (  # noqa: SIM905 - shorter
+    "class lambda self at user values message np int list Any rt copy mapping bridge log"
+    " initialize compute params get BridgeWorker JointState Time None object import field len"
+).split()
 
 
 def test_bridge_names_never_hide_names_of_generated_code(rcgen: Rcgen, tmp_path: Path) -> None:
