@@ -98,7 +98,7 @@ def test_thrift_failures(name: str, reply: str, fails: bool) -> None:
         ("reset", ""),
         (
             "add 1",
-            '[fail] "malformed message: message, byte 0: has 1 values, but should have: a b" ',
+            '[fail] "malformed message: message, byte 0: has 1 values (int32), but should have: ',
         ),
         ("fly 1", "[fail] "),
         ("help", '[many] ("*** Available commands:" "add a b" "set_flag on" '),
