@@ -72,7 +72,13 @@ def test_link_is_open_again_after_restarts(
     names.register("/reader", LOOPBACK, restarted.number)
     wait_until(lambda: publish("second", 2) or "event second 2" in second.received)
     counts = own.statistics.of("Events", "event")
-    wait_until(lambda: counts.calls == len(first.received) + len(second.received) + counts.drops)
+
+    def accounted() -> int:
+        return len(first.received) + len(second.received) + counts.drops
+
+    wait_until(lambda: accounted() >= counts.calls)
+    # A message whose acknowledgement was lost counts as dropped, although it may have arrived.
+    assert accounted() <= counts.calls + 1
     assert counts.drops >= 10
     wait_until(lambda: names.query("/own/Events:o"))
     restarted.close()
