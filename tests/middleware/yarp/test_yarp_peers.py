@@ -245,8 +245,9 @@ yarp.Network.init()
 port, request = yarp.RpcServer(), yarp.Bottle()
 port.open("/gripper/rpc:i")
 while True:
-    if port.read(request, False):
+    if port.read(request, True):
         print(request.toString())
+        port.reply(request)
 """
 
 
