@@ -14,12 +14,14 @@ from pathlib import Path
 
 from robocomp_dsl.deploy.connection_flags import connection_flags, middleware_flags, name_for
 from robocomp_dsl.deploy.devices import describe_devices, devices_environment
+from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.plan_text import describe_clock, describe_host
 from robocomp_dsl.model.deployment import (
     START_TIMEOUT_S,
     Clock,
     Deployment,
     External,
+    ExternalConnection,
     Instance,
     Readiness,
     ResourceLimits,
@@ -42,7 +44,8 @@ class Process:
     have exited before it is stopped. `config`, `context`, `config_name` and `settings`
     (`key=value`) are those in `argv`; `config` None: the component's default, or what it finds by
     `context` and `config_name`. `port` 0: any free port. `host` and `group` are as written in the
-    description, empty for this machine and for no group; `devices` are text lines.
+    description, empty for this machine and for no group; `devices` are text lines. `is_program`:
+    it is no component.
     """
 
     name: str
@@ -64,21 +67,7 @@ class Process:
     host: str = ""
     group: str = ""
     devices: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class ExternalProgram:
-    """A program outside of the deployment; `users` are the components connected to it.
-
-    `role` and `interface` are those of its port: `implements`, `RoboCompLaser::Laser`.
-    """
-
-    name: str
-    middleware: str
-    address: str
-    role: str
-    interface: str
-    users: tuple[str, ...]
+    is_program: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +84,7 @@ class Plan:
     processes: tuple[Process, ...]
     clock: str = "wall"
     externals: tuple[ExternalProgram, ...] = ()
+    external_connections: tuple[ExternalConnection, ...] = ()
 
     def shutdown_batches(self) -> list[list[str]]:
         """Names of processes to stop, batch after batch; those of one batch stop together."""
@@ -121,6 +111,7 @@ def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) ->
         processes,
         describe_clock(deployment.clock),
         tuple(_external(external, deployment) for external in deployment.externals),
+        deployment.external_connections,
     )
 
 
@@ -204,6 +195,7 @@ def _process(deployment: Deployment, instance: Instance, domain: str, interprete
         host=describe_host(instance.host),
         group=instance.group,
         devices=describe_devices(instance.devices),
+        is_program=instance.is_program,
     )
 
 

@@ -112,7 +112,14 @@ async def _run(
     plan = supervisor.plan
     requests = ComponentRequests(supervisor, replan)
     server = ControlServer(
-        journal, supervisor.statuses, supervisor.stop, supervisor.simulated_time, requests.handle
+        journal,
+        supervisor.statuses,
+        supervisor.stop,
+        supervisor.simulated_time,
+        requests.handle,
+        lambda: supervisor.plan.externals,
+        supervisor.external_connections.statuses,
+        [process.name for process in plan.processes if process.is_program],
     )
     await server.open(lock.folder / instances.SOCKET)
     path = str(plan.path.resolve())

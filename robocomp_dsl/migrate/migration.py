@@ -14,6 +14,8 @@ report. The stages, in order, one module each:
     component         all of these for one folder: a `MigratedComponent`
     manager           the processes of rcmanager or `sub.toml`
     deployment        addresses to `instances`; `connections` connects them, `ddsl` writes them
+    yarp              files of yarpmanager and yarprobotinterface
+    bottle_generator  configurations of yarp-bottle-generator
     migration_report  `MIGRATION.md`
 
 Each stage reports errors in its input with file and line, and continues.
@@ -22,7 +24,7 @@ Each stage reports errors in its input with file and line, and continues.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -31,12 +33,14 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.python.component_names import modules_of
 from robocomp_dsl.migrate import codes
+from robocomp_dsl.migrate.bottle_generator.convert import convert_file
 from robocomp_dsl.migrate.component import interface_files, migrate_component
 from robocomp_dsl.migrate.ddsl import PEERS, ddsl_text, interfaces_in, peer_files
 from robocomp_dsl.migrate.deployment import candidate_names, draft_deployment, find_interface
 from robocomp_dsl.migrate.instances import COMMON_BEHAVIOR, DeploymentDraft
 from robocomp_dsl.migrate.manager import ManagerNode, read_manager
 from robocomp_dsl.migrate.migrated_component import MigratedComponent
+from robocomp_dsl.migrate.yarp.migration import is_yarp_file, plan_yarp_files
 from robocomp_dsl.model.interface import Module
 from robocomp_dsl.source import Source, UnreadableSource
 
@@ -47,24 +51,37 @@ __all__ = ["MigrationPlan", "plan_migration"]
 class MigrationPlan:
     """The files to write below the output folder.
 
-    `components` are pairs of folder and component, `converted_files` pairs of old and new path.
+    `components` are pairs of folder and component, `converted_files` pairs of old and new path;
+    `worlds` are files from which simulators are generated, `bridges` files in BDSL.
     """
 
     name: str
     files: list[OutputFile] = field(default_factory=list)
     converted_files: list[tuple[str, str]] = field(default_factory=list)
     components: list[tuple[str, MigratedComponent]] = field(default_factory=list)
-    deployment: str = ""
+    deployments: list[str] = field(default_factory=list)
+    worlds: list[str] = field(default_factory=list)
+    bridges: list[str] = field(default_factory=list)
 
 
 def plan_migration(
-    inputs: Sequence[Path], out: Path, folders: Sequence[Path], report: Report
+    inputs: Sequence[Path],
+    out: Path,
+    folders: Sequence[Path],
+    report: Report,
+    tags: Sequence[str] = (),
+    topic_types: Mapping[str, str] | None = None,
 ) -> MigrationPlan:
-    """Plan the migration of component folders and manager files.
+    """Plan the migration of component folders, manager files and files of YARP.
 
     A single component folder is migrated to `out` itself, several to one folder each below it.
+    `tags` enable optional parts of robots of YARP.
+    `topic_types` are types of ROS topics, `package/Type`, for bridges.
     """
-    managers = [path for path in inputs if not path.is_dir()]
+    files = [path for path in inputs if not path.is_dir()]
+    yarp_files = [path for path in files if is_yarp_file(path)]
+    configurations = [path for path in files if path.suffix.lower() == ".ini"]
+    managers = [path for path in files if path not in (*yarp_files, *configurations)]
     sources = [path for path in inputs if path.is_dir()]
     alone = len(inputs) == 1 and bool(sources)
     plan = MigrationPlan("deployment")
@@ -84,6 +101,8 @@ def plan_migration(
             plan.name = moved.name
     nodes = [node for _, file_nodes in read for node in file_nodes]
     _add_deployment(plan, managers, nodes, out, folders, report)
+    _add_yarp_files(plan, yarp_files, out, tags, report)
+    _add_bridges(plan, configurations, folders, report, topic_types or {})
     for place, moved in plan.components:
         before = f"{place}/" if place else ""
         for file in moved.files:
@@ -93,6 +112,41 @@ def plan_migration(
             (str(Path(shown, a)), before + b) for a, b in moved.converted_files
         ]
     return plan
+
+
+def _add_yarp_files(
+    plan: MigrationPlan, paths: Sequence[Path], out: Path, tags: Sequence[str], report: Report
+) -> None:
+    """Add the deployments of files of yarpmanager and yarprobotinterface."""
+    if not paths:
+        return
+    taken = [deployment.removesuffix(".ddsl") for deployment in plan.deployments]
+    yarp = plan_yarp_files(paths, out, report, tags=tags, taken=taken)
+    plan.files += yarp.files
+    plan.converted_files += yarp.converted_files
+    plan.deployments += yarp.deployments
+    plan.worlds += yarp.worlds
+    if yarp.deployments and not plan.components:
+        plan.name = yarp.deployments[0].removesuffix(".ddsl")
+
+
+def _add_bridges(
+    plan: MigrationPlan,
+    paths: Sequence[Path],
+    folders: Sequence[Path],
+    report: Report,
+    topic_types: Mapping[str, str],
+) -> None:
+    """Add the bridges of configurations of yarp-bottle-generator."""
+    for path in paths:
+        bridge = convert_file(path, Workspace(folders), report, topic_types)
+        if bridge is None:
+            continue
+        name = f"{bridge.name}.bdsl"
+        plan.files.append(OutputFile(name, bridge.formatted()))
+        plan.converted_files.append((path.name, name))
+        plan.bridges.append(name)
+        plan.name = plan.name if plan.components or plan.deployments else bridge.name
 
 
 def _manager_configs(
@@ -152,12 +206,13 @@ def _add_deployment(
     _find_stand_in_interfaces(draft, modules, report)
     first = managers[0].stem if managers else components[0].name
     plan.name = re.sub(r"^\d+|\W", "_", first, flags=re.ASCII) or "deployment"
-    plan.deployment = f"{plan.name}.ddsl"
+    deployment = f"{plan.name}.ddsl"
+    plan.deployments.append(deployment)
     source = managers[0].name if managers else "the addresses in etc/"
     doc = f"From {source.replace('*/', '* /')}: the components, their hosts and their connections."
     places = {id(moved): place for place, moved in plan.components}
-    plan.files.append(OutputFile(plan.deployment, ddsl_text(plan.name, draft, places, doc)))
-    plan.converted_files.append((managers[0].name if managers else "etc/*", plan.deployment))
+    plan.files.append(OutputFile(deployment, ddsl_text(plan.name, draft, places, doc)))
+    plan.converted_files.append((managers[0].name if managers else "etc/*", deployment))
     plan.files += peer_files(draft, modules)
     for instance in draft.instances:
         used = [modules[i.module] for i in instance.peer_interfaces if i.module in modules]

@@ -186,6 +186,20 @@ class Connection(Record):
     condition: str = ""
 
 
+class ExternalConnection(Record):
+    """A connection between ports of two external programs, which rcdeploy makes and keeps.
+
+    `source` and `target` are names of ports as the middleware knows them; `carrier` is how it
+    carries the messages, "": its default.
+    """
+
+    middleware: str
+    source: str
+    target: str
+    carrier: str
+    span: Span
+
+
 class Export(Record):
     """A port of an instance in a group that is visible outside as `name`."""
 
@@ -242,3 +256,4 @@ class Deployment(Record):
     groups: tuple[Group, ...] = ()
     clock: Clock = Clock()
     externals: tuple[External, ...] = ()
+    external_connections: tuple[ExternalConnection, ...] = ()

@@ -83,9 +83,9 @@ def test_migrate_damaged_folder_writes_valid_files(old: Path, tmp_path: Path, se
         ast.parse((package_in(out / place) / "params.py").read_bytes())
     check_migrated_deployment(plan, out, [], report)
     assert all(finding.span.source.path.name for finding in report)
-    if plan.deployment and not report.has_errors:
+    for deployment in () if report.has_errors else plan.deployments:
         check_report = Report()
-        check_ddsl(out / plan.deployment, Workspace(), check_report)
+        check_ddsl(out / deployment, Workspace(), check_report)
         assert not check_report.has_errors
 
 

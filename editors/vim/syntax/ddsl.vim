@@ -74,6 +74,7 @@ hi def link ddsl_config_value ddslValue
 hi def link ddsl_config_name ddslName
 hi def link ddsl_config_field ddslField
 syn region ddsl_config matchgroup=ddslKeyword start=/\<config\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_config_inner,ddsl_config_value,ddsl_config_name,ddsl_config_field
+syn match ddsl_connect_inner contained /\.\@<!\<carrier\>\.\@!\%(\s*\%("\|\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_connect_inner contained /\.\@<!\<over\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 hi def link ddsl_connect_inner ddslModifier
 hi def link ddsl_connect_value ddslValue

@@ -152,6 +152,24 @@ Right:
 """,
 )
 
+EXTERNAL_CONNECTION = Code(
+    "RC559",
+    Severity.ERROR,
+    "invalid connection between external programs",
+    """\
+`connect` with a middleware connects ports of two programs, neither of which is a component. The
+names of the ports are in quotes, as the middleware knows them; each connection is written once.
+
+Wrong: a port of YARP starts with `/`.
+
+    connect yarp "camera:o" -> "/view:i";
+
+Right:
+
+    connect yarp "/camera:o" -> "/view:i" carrier fast_tcp;
+""",
+)
+
 ARBITRATION = Code(
     "RC558",
     Severity.ERROR,

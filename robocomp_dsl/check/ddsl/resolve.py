@@ -16,6 +16,7 @@ from robocomp_dsl.check.ddsl.carriers import check_carriers, check_deployment_mi
 from robocomp_dsl.check.ddsl.clocks import resolve_clock
 from robocomp_dsl.check.ddsl.components import CheckComponent, imported_components
 from robocomp_dsl.check.ddsl.connections import ExplicitConnections, explicit_connections
+from robocomp_dsl.check.ddsl.external_connections import resolve_external_connections
 from robocomp_dsl.check.ddsl.externals import report_unused_externals, resolve_externals
 from robocomp_dsl.check.ddsl.groups import resolve_groups, visible_exports
 from robocomp_dsl.check.ddsl.implicit_connections import implicit_connections
@@ -103,6 +104,9 @@ def resolve_ddsl(
         groups=groups,
         clock=resolve_clock(tree.clock, order, complete=complete, report=report),
         externals=tuple(externals.values()),
+        external_connections=resolve_external_connections(
+            tree.external_connections, known_middlewares, report
+        ),
     )
 
 

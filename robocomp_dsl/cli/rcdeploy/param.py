@@ -47,7 +47,7 @@ def command() -> None:
 def list_(which: str, components: tuple[str, ...], output_format: str) -> None:
     """List the parameters of all components, or of some."""
     deployment = running.resolve_deployment(which)
-    known = running.components(deployment)
+    known = running.answering_components(deployment)
     selected = [running.resolve_component(name, known) for name in components] or known
     found = {}
     deadline = time.monotonic() + CONNECT_TIMEOUT_S
@@ -72,7 +72,7 @@ def list_(which: str, components: tuple[str, ...], output_format: str) -> None:
 def get(which: str, component: str, names: tuple[str, ...]) -> None:
     """Print the values of parameters, one per line."""
     deployment = running.resolve_deployment(which)
-    full_name = running.resolve_component(component, running.components(deployment))
+    full_name = running.resolve_component(component, running.answering_components(deployment))
     with _proxies(deployment) as proxy_of:
         parameters = {p.name: p for p in _parameters(proxy_of, full_name)}
     for name in names:
@@ -97,7 +97,7 @@ def set_(which: str, component: str, changes: tuple[str, ...], *, save: bool, dd
 
     values = dict(map(_change, changes))
     deployment = running.resolve_deployment(which)
-    name = running.resolve_component(component, running.components(deployment))
+    name = running.resolve_component(component, running.answering_components(deployment))
     with _proxies(deployment) as proxy_of:
         proxy = _connect(proxy_of, name)
         try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -47,6 +48,15 @@ def is_deployment(word: str) -> bool:
         raise CliError(EXIT_FINDINGS, str(error)) from None
 
 
+def is_running(word: str) -> bool:
+    """Whether `word` is the name of a running deployment, and not also of its components."""
+    try:
+        found = [deployment for deployment in instances.running() if deployment.name == word]
+    except instances.Unavailable as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
+    return bool(found) and word not in components(found[0])
+
+
 def _selection_problem(
     which: str | None,
     matches: list[instances.RunningDeployment],
@@ -67,14 +77,25 @@ def is_meant(deployment: instances.RunningDeployment, which: str) -> bool:
 
 
 def components(deployment: instances.RunningDeployment) -> list[str]:
-    """The full names of its components."""
+    """The full names of its components and programs."""
+    return [str(row["name"]) for row in _status(deployment)["rows"]]
+
+
+def answering_components(deployment: instances.RunningDeployment) -> list[str]:
+    """The full names of its components, without the programs, which answer no calls."""
+    status = _status(deployment)
+    names = [str(row["name"]) for row in status["rows"]]
+    return [name for name in names if name not in status.get("programs", ())]
+
+
+def _status(deployment: instances.RunningDeployment) -> dict[str, Any]:
+    """The reply of the deployment's rcdeploy. Raises `CliError`."""
     try:
-        answer = next(control.send_request(deployment.name, {"verb": "status"}))
+        return next(control.send_request(deployment.name, {"verb": "status"}))
     except (instances.Unavailable, StopIteration):
         raise CliError(
             EXIT_FINDINGS, f"`{deployment.name}` does not answer; it may be ending"
         ) from None
-    return [str(row["name"]) for row in answer["rows"]]
 
 
 def resolve_component(name: str, known: Sequence[str]) -> str:

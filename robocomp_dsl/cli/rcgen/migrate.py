@@ -11,12 +11,16 @@ import shlex
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.diagnostics import Report, Severity
+
+if TYPE_CHECKING:
+    from robocomp_dsl.generate.output import OutputFile
 
 
 @click.command()
@@ -25,7 +29,7 @@ from robocomp_dsl.diagnostics import Report, Severity
     nargs=-1,
     required=True,
     type=click.Path(exists=True, readable=False, path_type=Path),
-    metavar="DIR|MANAGER.xml…",
+    metavar="DIR|FILE…",
 )
 @click.option(
     "-o",
@@ -34,6 +38,14 @@ from robocomp_dsl.diagnostics import Report, Severity
     metavar="DIR",
     help="Output folder, new or empty; default: the first name with `-migrated` appended.",
 )
+@click.option(
+    "--enable",
+    "tags",
+    multiple=True,
+    metavar="TAG",
+    help="Include the parts of a YARP robot that are `enabled_by` TAG, or `all`; repeatable.",
+)
+@options.topic_types
 @click.option("-q", "quiet", is_flag=True, help="Print findings only.")
 @options.output_format
 @options.folders
@@ -41,21 +53,26 @@ def command(
     *,
     inputs: tuple[Path, ...],
     output: Path | None,
+    tags: tuple[str, ...],
     quiet: bool,
     output_format: str,
     folders: tuple[Path, ...],
+    topic_types: tuple[str, ...],
 ) -> None:
-    """Migrate existing RoboComp components and deployments.
+    """Migrate components and deployments of RoboComp, and files of YARP.
 
     DIR is the folder of a component: its CDSL, etc/config (text or TOML), src/specificworker.py.
-    MANAGER.xml is a file of rcmanager, or sub.toml; name the folders of its components, too. The
-    old folders are never changed. MIGRATION.md lists what was migrated, and what was not.
+    FILE.xml is a file of rcmanager (or sub.toml; name the folders of its components, too), an
+    application of yarpmanager, or a robot of yarprobotinterface; FILE.ini is a configuration of
+    yarp-bottle-generator. The old files are never changed. MIGRATION.md lists what was migrated,
+    and what was not.
 
     The exit code is 0 if everything was carried over, 1 if something was not.
     """
     out = output or _default_output(inputs[0])
     _validate_output(inputs, out)
-    _migrate(inputs, out, folders, output_format, quiet)
+    types = options.parse_topic_types(topic_types)
+    _migrate(inputs, out, folders, tags, types, output_format, quiet)
 
 
 def _default_output(first: Path) -> Path:
@@ -77,11 +94,17 @@ def _validate_output(inputs: tuple[Path, ...], out: Path) -> None:
 
 
 def _migrate(
-    inputs: tuple[Path, ...], out: Path, folders: tuple[Path, ...], output_format: str, quiet: bool
+    inputs: tuple[Path, ...],
+    out: Path,
+    folders: tuple[Path, ...],
+    tags: tuple[str, ...],
+    topic_types: dict[str, str],
+    output_format: str,
+    quiet: bool,
 ) -> None:
     from robocomp_dsl.generate.write import CannotWrite, write  # noqa: PLC0415 - not for --help
     from robocomp_dsl.migrate.finish import (  # noqa: PLC0415
-        check_migrated_deployment,
+        check_migrated_files,
         generate_components,
         migration_report,
     )
@@ -89,12 +112,15 @@ def _migrate(
 
     report = Report()
     try:
-        plan = plan_migration(inputs, out, folders, report)
+        plan = plan_migration(inputs, out, folders, report, tags, topic_types)
         if plan.files:
             write(out, plan.files)
             for place, files in generate_components(plan, out, folders, report):
                 write(out / place, files)
-            check_migrated_deployment(plan, out, folders, report)
+            for world in plan.worlds:
+                folder = out / f"{Path(world).stem}_simulator"
+                write(folder, _simulator(out / world, folder, folders, report))
+            check_migrated_files(plan, out, folders, report)
             write(out, [migration_report(plan, report, _path_formatter(inputs, out))])
     except CannotWrite as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None
@@ -106,6 +132,23 @@ def _migrate(
         print(f"next: read {shlex.quote(str(out / 'MIGRATION.md'))}")
     if report.has_errors or not plan.files:
         raise CliError(EXIT_FINDINGS)
+
+
+def _simulator(
+    world: Path, folder: Path, folders: tuple[Path, ...], report: Report
+) -> list[OutputFile]:
+    """The files of the simulator of a migrated world, as `rcgen simulator` writes them."""
+    from robocomp_dsl.check.workspace.workspace import Workspace  # noqa: PLC0415 - not for --help
+    from robocomp_dsl.cli.rcgen.simulation.simulator import (  # noqa: PLC0415
+        build_simulator,
+        simulator_files,
+    )
+
+    own, workspace = Report(), Workspace(folders)
+    simulator = build_simulator(world, (), workspace, own, own, strict=False)
+    files = simulator_files(simulator, folder, workspace, own) if simulator else []
+    report.extend(own)
+    return files
 
 
 def _path_formatter(inputs: tuple[Path, ...], out: Path) -> Callable[[Path], str]:

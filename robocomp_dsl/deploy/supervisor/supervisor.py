@@ -20,6 +20,7 @@ from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.deploy.status import ProcessStatus, SimulatedTime
 from robocomp_dsl.deploy.supervisor import reaper
 from robocomp_dsl.deploy.supervisor.child import ChildProcess
+from robocomp_dsl.deploy.supervisor.external_connections import ExternalConnections
 from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
 from robocomp_dsl.deploy.supervisor.managed_process import KILL_TIMEOUT_S, ManagedProcess
 from robocomp_dsl.deploy.supervisor.notify import SOCKET_VARIABLE, NotifySocket
@@ -81,6 +82,7 @@ class Supervisor:
         self._notify: NotifySocket | None = None
         self._watches: dict[str, ProcessWatch] = {}
         self._processes = {p.name: ManagedProcess(p, self) for p in plan.processes}
+        self.external_connections = ExternalConnections(plan.external_connections, self.log)
         self._tasks: set[asyncio.Task[None]] = set()
         self._requests = 0
 
@@ -139,6 +141,7 @@ class Supervisor:
         self._all_exited: asyncio.Future[None] = loop.create_future()
         for process in self._processes.values():
             self._launch(process)
+        self.external_connections.start()
         duration = loop.create_task(self._stop_after_duration())
         stopping = loop.create_task(self._shut_down())
         try:
@@ -153,6 +156,7 @@ class Supervisor:
             self._monitor.close()
             if self._notify:
                 self._notify.close()
+            await asyncio.to_thread(self.external_connections.close)
             await asyncio.to_thread(self._kill_leftovers)
         return self._outcome()
 
@@ -256,6 +260,7 @@ class Supervisor:
     async def _shut_down(self) -> None:
         """Terminate batch after batch; processes that exceed the grace period are killed."""
         await self.stopping.wait()
+        await asyncio.to_thread(self.external_connections.close)
         deadline = time.monotonic() + self.options.stop_timeout_s
         for batch in self.plan.shutdown_batches():
             left = max(0.0, min(self.grace_s, deadline - time.monotonic()))

@@ -29,6 +29,8 @@ class Capabilities:
     connection plane does it, between components. `qos`: the items of `QOS_ITEMS` that it honours.
     `max_message_bytes` 0: no limit.
     `valid_names`: a regular expression for names of components and ports, empty: any name.
+    `external_port_names`: a regular expression for ports of programs that it can connect with each
+    other; empty: it connects none.
     `ros_types_only`: it carries messages and services of ROS only, from `.msg` and `.srv` files.
     """
 
@@ -45,6 +47,7 @@ class Capabilities:
     qos: frozenset[str] = frozenset()
     max_message_bytes: int = 0
     valid_names: str = ""
+    external_port_names: str = ""
     ros_types_only: bool = False
 
 
@@ -57,7 +60,10 @@ class MiddlewareDescription:
     be opened, and `install` tells how to install them. `configuration` is a function, as
     `module:function`, that adds the connections of RoboComp's configuration keys to the settings of
     a component; see `middleware.configured`. `tcp_ports` is a function, as `module:function`, from
-    the address of an own port to the TCP ports of this machine where it listens.
+    the address of an own port to the TCP ports of this machine where it listens. `connector` is a
+    function without arguments, as `module:function`, that opens an `ExternalConnector`; needed if
+    the capabilities have `external_port_names`. `address_problem` is a function, as
+    `module:function`, from an address to what is wrong with it, "" for nothing.
     """
 
     name: str
@@ -68,3 +74,5 @@ class MiddlewareDescription:
     install: str = ""
     configuration: str = ""
     tcp_ports: str = ""
+    connector: str = ""
+    address_problem: str = ""

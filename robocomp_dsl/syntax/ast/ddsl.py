@@ -221,6 +221,15 @@ class External(Node):
     doc: str = ""
 
 
+class ExternalConnection(Node):
+    """`connect yarp "/camera:o" -> "/view:i" carrier fast_tcp;`: between two external programs."""
+
+    middleware: Name
+    source: Text
+    target: Text
+    carrier: Name | Text | None = None
+
+
 class Export(Node):
     """`export JointMotor from motor;`: a port of an instance becomes a port of the group.
 
@@ -274,6 +283,7 @@ class Deployment(Node):
     connections: tuple[Connection, ...] = ()
     groups: tuple[Group, ...] = ()
     externals: tuple[External, ...] = ()
+    external_connections: tuple[ExternalConnection, ...] = ()
     arbitrations: tuple[Arbitration, ...] = ()
     doc: str = ""
 

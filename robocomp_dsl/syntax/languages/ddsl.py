@@ -66,6 +66,7 @@ class DdslBuilder(InstancesBuilder, ConnectionsBuilder):
             connections=of_kind(ast.Connection, items),
             groups=of_kind(ast.Group, items),
             externals=of_kind(ast.External, items),
+            external_connections=of_kind(ast.ExternalConnection, items),
             arbitrations=of_kind(ast.Arbitration, items),
             doc=self.doc(span),
             **self.settings(items),

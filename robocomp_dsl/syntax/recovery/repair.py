@@ -60,8 +60,8 @@ def panic_mode(context: ErrorContext, item: Sequence[Token]) -> Repair:
         help_text = "move it to its own file and import that; this module is skipped"
         return Repair(syntax_codes.MISPLACED, module.start, module.end, message, help=help_text)
     if context.lookahead[0].kind != END or not context.open_braces:
-        # In DDSL, a dot is the only accepted token in a port reference.
-        ports = context.tables.language == "ddsl" and context.accepted_terminals() == ["DOT"]
+        # In DDSL, a dot follows only the instance of a port reference.
+        ports = context.tables.language == "ddsl" and "DOT" in context.accepted_terminals()
         message = "a connection has the form `component.Port -> component.Port`" if ports else ""
         return Repair(syntax_codes.UNEXPECTED, start, end, help=message)
     opened = context.open_braces[-1]

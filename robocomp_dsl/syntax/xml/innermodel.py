@@ -38,6 +38,11 @@ def parse_scxml(source: Source, report: Report) -> File:
     return _parse(_Builder(source, FileDiagnostics(source, report), "scxml", keeps_text=True))
 
 
+def parse_xml(source: Source, report: Report) -> File:
+    """The tree of any XML file, including text content."""
+    return _parse(_Builder(source, FileDiagnostics(source, report), "…", keeps_text=True))
+
+
 def _parse(builder: _Builder) -> File:
     for item in group_tags(builder.source.text):
         if builder.findings.too_many_errors:

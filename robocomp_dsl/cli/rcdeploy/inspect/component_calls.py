@@ -54,4 +54,6 @@ def connect(
 
 def component_names(client: DomainClient, domain_target: DomainTarget) -> tuple[str, ...]:
     """The components of the deployment, or those that are seen in the domain."""
+    if domain_target.deployment:
+        return domain_target.components
     return domain_target.components or tuple(client.components())

@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy.inspect.completion import complete_components
-from robocomp_dsl.cli.rcdeploy.inspect.target import InspectCommand, open_client, resolve_domain
+from robocomp_dsl.cli.rcdeploy.inspect.target import (
+    DomainTarget,
+    InspectCommand,
+    open_client,
+    resolve_domain,
+)
+
+if TYPE_CHECKING:
+    from robocomp_dsl.deploy.external_connection import ConnectionStatus
 
 _HEAD = ("PORT", "ROLE", "PEER", "OVER", "STATE", "QOS", "CALLS", "LOST", "HELD", "LATE")
 _RIGHT = (6, 7, 8, 9)
@@ -21,7 +31,8 @@ def command(
     """List connections: with whom, over what, in which state, what was lost.
 
     CALLS, LOST, HELD and LATE are calls or messages, lost messages, messages that waited for room
-    in a full queue, and missed deadlines of the port.
+    in a full queue, and missed deadlines of the port. Connections between external programs, which
+    rcdeploy makes, have the role `external`.
     """
     from robocomp_dsl.cli.rcdeploy.inspect import connection_calls, text  # noqa: PLC0415
     from robocomp_dsl.cli.rcdeploy.inspect.component_calls import component_names  # noqa: PLC0415
@@ -62,6 +73,25 @@ def command(
                 continue
             rows += [row(name, info) for info in infos]
             data += [{"component": name, **struct_to_plain(info)} for info in infos]
+    for link in [] if components else _external_connections(target):
+        state = f"{link.state}{f' ({link.reason})' if link.reason else ''}"
+        over = f"{link.middleware}{f' ({link.carrier})' if link.carrier else ''}"
+        rows.append((link.source, "external", link.target, over, state, *["-"] * 5))
+        data.append({"component": "", **link.as_dict()})
     print(text.to_json(data) if as_json else "\n".join(format_columns(rows, _RIGHT)))
     if problems:
         raise CliError(EXIT_FINDINGS, "; ".join(problems))
+
+
+def _external_connections(target: DomainTarget) -> list[ConnectionStatus]:
+    """The connections between external programs that the rcdeploy of a deployment keeps."""
+    if not target.deployment:
+        return []
+    from robocomp_dsl.deploy import control, instances  # noqa: PLC0415 - not for --help
+    from robocomp_dsl.deploy.external_connection import ConnectionStatus  # noqa: PLC0415
+
+    try:
+        answer = next(control.send_request(target.deployment, {"verb": "status"}))
+    except (instances.Unavailable, StopIteration):
+        return []
+    return [ConnectionStatus(**link) for link in answer.get("connections", ())]

@@ -93,7 +93,7 @@ def command(
     )
     folder = output or file.parent / (simulator_.name if simulator_ else "")
     files = (
-        _files(simulator_, folder, workspace, report)
+        simulator_files(simulator_, folder, workspace, report)
         if simulator_ and not report.has_errors
         else []
     )
@@ -225,7 +225,7 @@ def _build(simulator_: Simulator, body: InnerModel, report: Report) -> None:
         report.add(codes_model.MODEL_OVERLAP, place(overlap.message), overlap.message)
 
 
-def _files(
+def simulator_files(
     simulator_: Simulator, folder: Path, workspace: Workspace, report: Report
 ) -> list[OutputFile]:
     """All files; the description files are checked before they are written."""

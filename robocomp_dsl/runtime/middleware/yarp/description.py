@@ -15,6 +15,9 @@ MIDDLEWARE = MiddlewareDescription(
         attaches_subscribers=True,
         qos=frozenset({"reliable", "keep_all", "latched"}),
         max_message_bytes=MAX_MESSAGE_BYTES,
+        external_port_names=r"/[^\s\"@]+",
     ),
     opener="robocomp_dsl.runtime.middleware.yarp.transport:open_transport",
+    connector="robocomp_dsl.runtime.middleware.yarp.connector:open_connector",
+    address_problem="robocomp_dsl.runtime.middleware.yarp.valid_addresses:address_problem",
 )

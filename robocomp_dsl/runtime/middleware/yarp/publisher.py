@@ -19,12 +19,13 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.message_stamp import published_stamp
 from robocomp_dsl.runtime.middleware.transport import BoundOperation
 from robocomp_dsl.runtime.middleware.yarp import outgoing
-from robocomp_dsl.runtime.middleware.yarp.addresses import CARRIERS, PortAddress, parse_address
+from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress, parse_address
 from robocomp_dsl.runtime.middleware.yarp.envelopes import write_envelope
 from robocomp_dsl.runtime.middleware.yarp.outgoing import Resolve
 from robocomp_dsl.runtime.middleware.yarp.outgoing_message import OutgoingMessage
 from robocomp_dsl.runtime.middleware.yarp.output_link import CONNECT_S, OutputLink
 from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost
+from robocomp_dsl.runtime.middleware.yarp.valid_addresses import CARRIERS
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 

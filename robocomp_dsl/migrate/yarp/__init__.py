@@ -1,0 +1,1 @@
+"""Applications of yarpmanager and descriptions of yarprobotinterface become deployments."""

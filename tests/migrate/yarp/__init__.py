@@ -1,0 +1,1 @@
+"""Migration of files of yarpmanager and yarprobotinterface."""
