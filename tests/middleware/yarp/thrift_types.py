@@ -38,7 +38,12 @@ DEMO = rt.Interface(
     rt.Operation("make_path", inputs={"start": Point, "xs": rt.Float64Array}, returns=Path),
     rt.Operation("measure_path", inputs={"path": Path}, returns=rt.Int),
     rt.Operation("reset"),
-    rt.Operation("get_long_method_name", inputs={"what": rt.String}, returns=rt.String),
+    rt.Operation(
+        "get_long_method_name",
+        inputs={"what": rt.String},
+        returns=rt.String,
+        defaults={"what": "x"},
+    ),
     rt.Operation("next_number", inputs={"value": rt.Long}, returns=rt.Long),
     rt.Operation("twice", inputs={"value": rt.Double}, returns=rt.Double),
     rt.Operation("negated", inputs={"value": rt.Int8}, returns=rt.Int8),

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, cast
 
-from robocomp_dsl.runtime.codec.bottle.from_bottle import as_items, items_to_fields
+from robocomp_dsl.runtime.codec.bottle.from_bottle import as_items, items_to_fields, width_of
 from robocomp_dsl.runtime.codec.bottle.layout import Layout
 from robocomp_dsl.runtime.codec.bottle.to_bottle import (
     FAIL,
@@ -112,9 +112,25 @@ def plain_encoder(
 def request_decoder(
     operation: Operation, layout: Layout = Layout.YARP
 ) -> Callable[[Bottle], tuple[Any, ...]]:
-    """A function from the items behind the name to arguments."""
-    convert = items_to_fields(operation.inputs, layout)
-    return lambda items: tuple(convert(items))
+    """A function from the items behind the name to arguments.
+
+    Arguments with a default may be missing at the end, as for code of `yarpidl_thrift`.
+    """
+    inputs, defaults = operation.inputs, operation.defaults
+    convert = items_to_fields(inputs, layout)
+    shorter = {}
+    for missing in range(1, len(defaults) + 1):
+        stated = inputs[: len(inputs) - missing]
+        width = sum(width_of(type_, layout) for _, type_ in stated)
+        shorter[width] = (items_to_fields(stated, layout), defaults[-missing:])
+
+    def decode(items: Bottle) -> tuple[Any, ...]:
+        if found := shorter.get(len(items)):
+            convert_stated, values = found
+            return (*convert_stated(items), *values)
+        return tuple(convert(items))
+
+    return decode
 
 
 def plain_decoder(
