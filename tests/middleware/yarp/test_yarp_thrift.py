@@ -128,9 +128,11 @@ def test_thrift_failures(name: str, reply: str, fails: bool) -> None:
         ("make path 1.0 2.0 s (1.5 2.5)", PATH_TEXT),
         (f"measure_path {PATH_TEXT}", "2126"),
         ("reset", ""),
+        ("get long method name hey", '"hey!"'),
+        ("get long method name", '"x!"'),
         (
             "add 1",
-            '[fail] "malformed message: message, byte 0: has 1 values, but should have: a b" ',
+            '[fail] "malformed message: message, byte 0: has 1 values (int32), but should have: ',
         ),
         ("fly 1", "[fail] "),
         ("help", '[many] ("*** Available commands:" "add a b" "set_flag on" '),
