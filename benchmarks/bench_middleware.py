@@ -74,7 +74,7 @@ class Bell:
         self._lock.acquire()
 
     def ring(self, *_: Any) -> None:
-        """Let the one who waits go on."""
+        """Let the waiting thread go on."""
         self._lock.release()
 
     def wait(self) -> None:

@@ -17,6 +17,7 @@ LANGUAGES = {
     "pdsl": "PDSL",
     "ddsl": "DDSL",
     "smdsl": "SMDSL",
+    "bdsl": "BDSL",
     "innermodel": "InnerModel",
 }
 _DEFINITION = re.compile(r"^[?!]?(?P<name>_?[A-Za-z][A-Za-z_0-9]*)(?:\.\d+)?:\s*(?P<body>.*)$")

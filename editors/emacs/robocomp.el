@@ -6,8 +6,8 @@
 
 ;;; Commentary:
 
-;; Modes for IDSL, CDSL, PDSL, DDSL, SMDSL, SCXML and InnerModel files, and their language server for
-;; eglot.  In your init file:
+;; Modes for IDSL, CDSL, PDSL, DDSL, SMDSL, BDSL, SCXML and InnerModel files, and their language server
+;; for eglot.  In your init file:
 ;;
 ;;   (add-to-list 'load-path "/path/to/editors/emacs")
 ;;   (require 'robocomp)
@@ -111,6 +111,11 @@
   (robocomp--fontify 'smdsl))
 
 ;;;###autoload
+(define-derived-mode robocomp-bdsl-mode robocomp-mode "BDSL"
+  "Bridges between middlewares."
+  (robocomp--fontify 'bdsl))
+
+;;;###autoload
 (define-derived-mode robocomp-innermodel-mode nxml-mode "InnerModel"
   "Bodies of robots.")
 
@@ -125,18 +130,20 @@
   (add-to-list 'auto-mode-alist '("\\.pdsl\\'" . robocomp-pdsl-mode))
   (add-to-list 'auto-mode-alist '("\\.ddsl\\'" . robocomp-ddsl-mode))
   (add-to-list 'auto-mode-alist '("\\.smdsl\\'" . robocomp-smdsl-mode))
+  (add-to-list 'auto-mode-alist '("\\.bdsl\\'" . robocomp-bdsl-mode))
   (add-to-list 'auto-mode-alist '("\\.scxml\\'" . robocomp-scxml-mode))
   ;; XML files are InnerModel if their root element is `innerModel'.
   (add-to-list 'magic-mode-alist
                '("\\(?:<\\?xml[^>]*>\\|<!--[^>]*-->\\|[ \t\r\n]\\)*<innerModel[ \t\r\n/>]"
                  . robocomp-innermodel-mode)))
 
-(dolist (language '("idsl" "cdsl" "pdsl" "ddsl" "smdsl" "innermodel" "scxml"))
+(dolist (language '("idsl" "cdsl" "pdsl" "ddsl" "smdsl" "bdsl" "innermodel" "scxml"))
   (put (intern (format "robocomp-%s-mode" language)) 'eglot-language-id language))
 
 (add-to-list 'eglot-server-programs
              '((robocomp-idsl-mode robocomp-cdsl-mode robocomp-pdsl-mode robocomp-ddsl-mode
-                robocomp-smdsl-mode robocomp-innermodel-mode robocomp-scxml-mode)
+                robocomp-smdsl-mode robocomp-bdsl-mode robocomp-innermodel-mode
+                robocomp-scxml-mode)
                . robocomp--contact))
 
 (provide 'robocomp)

@@ -29,7 +29,11 @@ _GROUPS = {
     "Field": "Identifier",
     "Function": "Function",
 }
-_BEHIND = {"name": r"\h", "string": '"', "number": r"[-+.0-9]", "[": r"\["}
+_BEHIND = {"name": r"\h", "string": '"', "number": r"[-+.0-9]", "digit": r"\.\=\d", "[": r"\["}
+_BEHIND_TYPE = {
+    "idsl": r"\ze\%(\s\+\h\|\s*[<>,)]\|\s*$\)",
+    "bdsl": r"\ze\%(\s\+\h\|\s*[[;{]\|\s*$\)",
+}
 _NUMBER = r"\%(\<0[xX]\x\+\|[-+]\=\%(\<\d\+\.\=\d*\|\.\d\+\)\%([eE][-+]\=\d\+\)\=\)"
 _FRAME = """\" Vim syntax file: {NAME} of RoboComp
 " Written by `python -m editors.highlight` from the grammars; do not edit.
@@ -79,17 +83,18 @@ def _items(of: Words) -> Iterator[str]:
     """Elements of any statement, all in the cluster `Any`."""
     name = of.language
     match = f"syn match {name}"
-    yield rf"{match}Operator contained /->\|=>\|::\|[=:<>+.-]/"
-    if name == "idsl":
+    signs = r"[=:+*\/.-]" if name == "bdsl" else "[=:<>+.-]"
+    yield rf"{match}Operator contained /->\|=>\|::\|{signs}/"
+    if name in ("idsl", "bdsl"):
         yield rf"{match}Function contained /\h\w*\ze\s*(/"
     yield (
         rf"{match}Text contained /\h\w*/"
-        if name != "idsl"
+        if name not in ("idsl", "bdsl")
         else rf"{match}Text contained /\h\w*\ze\%(\s*(\)\@!\>/"
     )
     yield rf"{match}Number contained /{_NUMBER}\>\=/"
     if of.types:
-        behind = r"\ze\%(\s\+\h\|\s*[<>,)]\|\s*$\)" if name == "idsl" else ""
+        behind = _BEHIND_TYPE.get(name, "")
         yield rf"{match}Type contained /{_alternatives(of.types)}{behind}/"
     if of.truth:
         yield rf"{match}Truth contained /{_alternatives(of.truth)}/"
@@ -98,7 +103,8 @@ def _items(of: Words) -> Iterator[str]:
         yield rf"{match}Unit contained /\%(\<\d\+\.\=\d*\s*\)\@<={units}/"
     if of.units:
         yield rf"{match}Unit contained /\[[^][]*\]/"
-        yield rf"{match}Number contained /\[[0-9: \t]*\]/"
+        commas = "," if name == "bdsl" else ""
+        yield rf"{match}Number contained /\[[0-9:{commas} \t]*\]/"
     if of.patterns:
         yield rf"{match}Pattern contained /\[\s*{_alternatives(of.patterns)}\s*\]/"
     if name == "pdsl":

@@ -19,6 +19,7 @@ from robocomp_dsl.model.types import PRIMITIVES
 from robocomp_dsl.runtime.middleware.registry import BUILT_IN
 from robocomp_dsl.syntax.grammar.build_tables import LANGUAGES as NAMES
 from robocomp_dsl.syntax.grammar.build_tables import build_tables, lark_parser
+from robocomp_dsl.syntax.languages.bdsl import POLICIES as HUB_POLICIES
 from robocomp_dsl.syntax.languages.builder import TIME_UNITS
 from robocomp_dsl.syntax.languages.cdsl_settings import LANGUAGES, OPTIONS, WIDGETS
 from robocomp_dsl.syntax.languages.ddsl_instances import POLICIES
@@ -29,16 +30,32 @@ VALUES = {
     "gui": ("Qt", *WIDGETS),
     "middleware": tuple(sorted(BUILT_IN)),
     "options": OPTIONS,
+    "policy": HUB_POLICIES,
     "priority": PRIORITIES,
     "restart": POLICIES,
 }
 """The values that checks accept after a keyword where the grammar has only a name."""
 
-_TRUTH = {"idsl": ("false", "true"), "pdsl": ("false", "true"), "ddsl": ("false", "true")}
+_TRUTH = {
+    "idsl": ("false", "true"),
+    "pdsl": ("false", "true"),
+    "ddsl": ("false", "true"),
+    "bdsl": ("counter", "false", "now", "true"),
+}
+_DURATIONS = {
+    "ddsl": tuple(TIME_UNITS),
+    "smdsl": tuple(TIME_UNITS),
+    "bdsl": (*TIME_UNITS, "Hz"),
+}
+_FIELD_WORDS = "_field_word"
+"""The rule of a grammar that lists keywords which are names of fields before `=`, `.` and `[`."""
+
+_BEHIND_FIELDS = frozenset(("EQUAL", "DOT", "BRACKETED"))
 _FOLLOWING = {
     "ID": "name",
     "STRING": "string",
     "NUMBER": "number",
+    "UNSIGNED": "digit",
     "LBRACE": "{",
     "LESSTHAN": "<",
     "LPAR": "(",
@@ -87,13 +104,15 @@ class Grammar:
         """What may follow a keyword: `name`, `string`, `number` or punctuation."""
         after = {row[terminal] for row in self._actions if row.get(terminal, -1) >= 0}
         kinds = {kind for state in after for kind in self._actions[state]}
+        if any(terminal == symbols[0].name for symbols, _ in self._rules.get(_FIELD_WORDS, ())):
+            kinds = {"UNSIGNED" if kind == "NUMBER" else kind for kind in kinds - _BEHIND_FIELDS}
         kinds = {"ID" if kind in self.terminals else kind for kind in kinds}
         return sorted(_FOLLOWING[kind] for kind in kinds if kind in _FOLLOWING)
 
     def _starts(
         self, name: str, rest: tuple[Symbol, ...], legacy: bool, seen: tuple[str, ...]
     ) -> Iterator[Start]:
-        if name in seen:
+        if name in seen or name == _FIELD_WORDS:
             return
         for expansion, alias in self._rules[name]:
             old = legacy or (alias or name).startswith(("ignored_", "no_gui", "OLD_"))
@@ -116,7 +135,7 @@ class Grammar:
             name = todo.pop().name
             if name in self.terminals:
                 words.add(name)
-            if name in seen or name.endswith("_item"):
+            if name in seen or name.endswith("_item") or name == _FIELD_WORDS:
                 continue
             seen.add(name)
             todo += [symbol for expansion, _ in self._rules.get(name, ()) for symbol in expansion]
@@ -130,8 +149,8 @@ def words(language: str) -> dict[str, Any]:
     plain = found.pop("", (set(), False, False))
     spelt = grammar.terminals
     types = [spelt[name] for name in spelt if name.endswith("_TYPE")]
-    if language == "idsl":
-        types = [*PRIMITIVES, "void"]
+    if language in ("idsl", "bdsl"):
+        types = [*PRIMITIVES, *(["void"] if language == "idsl" else [])]
     return {
         "any_case": grammar.any_case,
         "keywords": {spelt[t]: grammar.following(t) for t in sorted(spelt, key=spelt.__getitem__)},
@@ -148,8 +167,8 @@ def words(language: str) -> dict[str, Any]:
         "types": sorted(types),
         "truth": list(_TRUTH.get(language, ())),
         "patterns": list(PATTERNS) if language == "idsl" else [],
-        "durations": list(TIME_UNITS) if language in ("ddsl", "smdsl") else [],
-        "units": sorted(KNOWN) if language in ("idsl", "pdsl") else [],
+        "durations": list(_DURATIONS.get(language, ())),
+        "units": sorted(KNOWN) if language in ("idsl", "pdsl", "bdsl") else [],
     }
 
 

@@ -45,12 +45,12 @@ class Version:
                     self.add(module)
             case Module():
                 self.declarations |= {d.qualified: d for d in model.declarations}
-                definitions = (m for m in model.closure() if m.is_ros and m is not model)
+                definitions = (m for m in model.closure() if m.origin and m is not model)
                 self.ros |= {d.qualified: d for m in definitions for d in m.declarations}
 
 
 def compare(old: Version, new: Version, deployments: Iterable[Deployment], report: Report) -> None:
-    """Report all breaking changes; `deployments` are the current ones that may be affected."""
+    """Report all breaking changes; `deployments` are those that may be affected."""
     changes = Changes(report)
     # A definition that is no longer imported matters only to operations, which are compared.
     ros = old.ros.keys() & new.ros.keys()

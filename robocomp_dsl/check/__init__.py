@@ -10,6 +10,7 @@ file itself, and the errors of the files that it references.
     CDSL        parse_cdsl        cdsl/resolve             cdsl/rules             check_cdsl
     PDSL        parse_pdsl        pdsl/resolve             pdsl/rules             check_pdsl
     DDSL        parse_ddsl        ddsl/resolve             in the parts below     check_ddsl
+    BDSL        parse_bdsl        bdsl/resolve             in the parts below     check_bdsl
     SMDSL       parse_smdsl       states/resolve_smdsl  states/rules_smdsl  check_state_machine
     SCXML       parse_scxml       states/resolve_scxml  states/rules        check_state_machine
     InnerModel  parse_innermodel  innermodel/resolve       innermodel/rules       check_innermodel
@@ -17,6 +18,8 @@ file itself, and the errors of the files that it references.
 
 The parts of a deployment (`ddsl/`): components, instances, settings, devices, order, connections,
 implicit_connections, clocks, groups.
+The parts of a bridge (`bdsl/`): declarations, ports, hubs, outputs, services; values go through
+expressions (types, bottom up), fitting (type and unit of the target) and assignments.
 
 Every pass continues after an error, so one run reports all of them. No check raises because of the
 content of a file. `workspace/` caches everything that did not change since the last run.

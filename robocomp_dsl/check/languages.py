@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from robocomp_dsl.check.codes import names as codes
 from robocomp_dsl.check.passes import (
+    check_bdsl,
     check_cdsl,
     check_ddsl,
     check_idsl,
@@ -24,10 +25,11 @@ from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.regular_file import open_regular
 from robocomp_dsl.source import Source
-from robocomp_dsl.syntax.parse import LANGUAGES, parse_innermodel, parse_ros, parse_scxml
-from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
+from robocomp_dsl.syntax.definitions import DEFINITION_SUFFIXES
+from robocomp_dsl.syntax.parse import DEFINITIONS, LANGUAGES, parse_innermodel, parse_scxml
 
 if TYPE_CHECKING:
+    from robocomp_dsl.model.bridge import Bridge
     from robocomp_dsl.model.component import Component
     from robocomp_dsl.model.deployment import Deployment
     from robocomp_dsl.model.innermodel import InnerModel
@@ -36,17 +38,24 @@ if TYPE_CHECKING:
     from robocomp_dsl.model.statemachine import StateMachine
 
     Model: TypeAlias = (
-        tuple[Module, ...] | Component | ParameterSet | Deployment | StateMachine | InnerModel
+        tuple[Module, ...]
+        | Component
+        | ParameterSet
+        | Deployment
+        | Bridge
+        | StateMachine
+        | InnerModel
     )
     Check: TypeAlias = Callable[[Path, Workspace, Report], Model | None]
 
 
 CHECKS: Mapping[str, Check] = {
     ".idsl": check_idsl,
-    **dict.fromkeys(ROS_SUFFIXES, check_idsl),
+    **dict.fromkeys(DEFINITION_SUFFIXES, check_idsl),
     ".cdsl": check_cdsl,
     ".pdsl": check_pdsl,
     ".ddsl": check_ddsl,
+    ".bdsl": check_bdsl,
     ".smdsl": check_state_machine,
     ".scxml": check_state_machine,
     ".xml": check_innermodel,
@@ -60,7 +69,7 @@ _HEAD = 4096
 
 PARSERS: Mapping[str, Callable[[Source, Report], object]] = {
     **LANGUAGES,
-    **dict.fromkeys(ROS_SUFFIXES, parse_ros),
+    **DEFINITIONS,
     ".scxml": parse_scxml,
     ".xml": parse_innermodel,
 }

@@ -106,7 +106,7 @@ def as_type(literal: Literal, type_: types.Type) -> types.Literal:
 
 
 def join_names(names: Sequence[str], most: int = 8) -> str:
-    """Names for a message: the first `most` names and the number of further ones."""
+    """Names for a message: the first `most` names and the number of the others."""
     shown = ", ".join(f"`{name}`" for name in names[:most])
     return f"{shown} and {len(names) - most} more" if len(names) > most else shown
 

@@ -14,9 +14,10 @@ from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.source import Source, UnreadableSource
 from robocomp_dsl.syntax.codes import file as form
-from robocomp_dsl.syntax.parse import parse_cdsl, parse_ddsl, parse_pdsl
+from robocomp_dsl.syntax.parse import parse_bdsl, parse_cdsl, parse_ddsl, parse_pdsl
 
 if TYPE_CHECKING:  # start-up time: modules are imported in the functions that need them
+    from robocomp_dsl.model.bridge import Bridge
     from robocomp_dsl.model.component import Component
     from robocomp_dsl.model.deployment import Deployment
     from robocomp_dsl.model.innermodel import InnerModel
@@ -68,6 +69,17 @@ def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment |
 
     file = parse(path, parse_ddsl, workspace, report)
     return resolve_ddsl(file, workspace, check_cdsl, report) if file else None
+
+
+def check_bdsl(path: Path, workspace: Workspace, report: Report) -> Bridge | None:
+    """The bridge of a bridge description."""
+    from robocomp_dsl.check.bdsl.resolve import resolve_bdsl  # noqa: PLC0415
+
+    workspace.modules.start_run(path)
+    file = parse(path, parse_bdsl, workspace, report)
+    if file is None or file.tree.bridge is None:
+        return None
+    return resolve_bdsl(file, file.tree.bridge, workspace, report)
 
 
 def check_state_machine(path: Path, workspace: Workspace, report: Report) -> StateMachine | None:

@@ -33,6 +33,13 @@ folders = click.option(
     metavar="DIR",
     help="Also search imported interfaces in DIR; repeatable.",
 )
+topic_types = click.option(
+    "--type",
+    "topic_types",
+    multiple=True,
+    metavar="TOPIC=PACKAGE/TYPE",
+    help="The type of a ROS topic of a configuration of yarp-bottle-generator; repeatable.",
+)
 packages = click.option(
     "--packages",
     multiple=True,
@@ -91,3 +98,18 @@ def print_error(message: str) -> None:
 
     label = "\x1b[1;31merror\x1b[0m" if use_colours(sys.stderr) else "error"
     print(f"{label}: {strip_control_chars(message)}", file=sys.stderr)
+
+
+def parse_topic_types(written: Sequence[str]) -> dict[str, str]:
+    """The types of `--type` by topic. Raises `click.UsageError`."""
+    types = {}
+    for text in written:
+        topic, equals, name = text.partition("=")
+        package, _, type_ = name.strip().removesuffix(".msg").replace("/msg/", "/").partition("/")
+        if not equals or not topic.startswith("/") or not package.isidentifier() or not type_:
+            problem = (
+                f"--type {text!r}: write /TOPIC=PACKAGE/TYPE, such as /goal=geometry_msgs/Point"
+            )
+            raise click.UsageError(problem)
+        types[topic.strip()] = f"{package}/{type_}"
+    return types

@@ -102,7 +102,7 @@ Wrong:
 
 Right:
 
-    Deployment robot { component arm; };      // zenoh, if the component names no other one
+    Deployment robot { component arm; };      // zenoh, if the component names no other
 """,
 )
 

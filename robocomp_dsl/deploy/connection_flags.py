@@ -11,10 +11,10 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from robocomp_dsl.deploy.qos_text import format_qos
 from robocomp_dsl.model.component import Port, Role
 from robocomp_dsl.model.deployment import Connection, Deployment, External, Instance, Monitor, Qos
 from robocomp_dsl.model.port_middlewares import port_middlewares
+from robocomp_dsl.model.qos_text import format_qos
 
 
 def middleware_flags(deployment: Deployment, instance: Instance) -> list[str]:

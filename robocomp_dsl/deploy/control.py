@@ -21,13 +21,14 @@ from typing import Any, TypeAlias
 
 from robocomp_dsl.deploy import instances
 from robocomp_dsl.deploy.external_connection import ConnectionStatus
+from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.status import ProcessStatus, SimulatedTime
 
 JOURNAL_SIZE = 10_000
 """Records that `logs` can show from the past, and the queue length of each follower."""
 REPLY_TIMEOUT_S = 0.5
-"""rcdeploy answers within a millisecond; one that is stopped never."""
+"""rcdeploy answers within a millisecond; a stopped rcdeploy never."""
 _CONNECT_PERIOD_S = 0.01
 _STATUS = {"verb": "status"}
 RecordFilter: TypeAlias = Callable[[LogRecord], bool]
@@ -38,7 +39,7 @@ RequestHandler: TypeAlias = Callable[
 
 
 class LogJournal:
-    """Ring buffer of the latest records, with followers that receive new ones."""
+    """Ring buffer of the latest records, with followers that receive new records."""
 
     def __init__(self) -> None:
         self._records: deque[LogRecord] = deque(maxlen=JOURNAL_SIZE)
@@ -82,6 +83,7 @@ class ControlServer:
         stop: Callable[[str], None],
         time: Callable[[], SimulatedTime | None],
         handle_request: RequestHandler,
+        externals: Callable[[], Sequence[ExternalProgram]],
         connections: Callable[[], Sequence[ConnectionStatus]] = tuple,
         programs: Sequence[str] = (),
     ) -> None:
@@ -91,6 +93,7 @@ class ControlServer:
         self._stop = stop
         self._time = time
         self._handle_request = handle_request
+        self._externals = externals
         self._external_connections = connections
         self._programs = list(programs)
         self._outcome: asyncio.Future[dict[str, Any]] | None = None
@@ -132,11 +135,14 @@ class ControlServer:
         match request.get("verb"):
             case "status":
                 statuses, time = self._statuses(), self._time()
-                clock = time.as_dict() if time else None
-                rows = [process.as_dict() for process in statuses]
-                links = [connection.as_dict() for connection in self._external_connections()]
-                reply = {"rows": rows, "clock": clock, "connections": links}
-                await _send(writer, reply | {"programs": self._programs})
+                answer = {
+                    "rows": [process.as_dict() for process in statuses],
+                    "clock": time.as_dict() if time else None,
+                    "externals": [program.as_dict() for program in self._externals()],
+                    "connections": [link.as_dict() for link in self._external_connections()],
+                    "programs": self._programs,
+                }
+                await _send(writer, answer)
             case "logs":
                 await self._logs(request, reader, writer)
             case "start" | "stop" | "restart" as verb if verb != "stop" or "components" in request:

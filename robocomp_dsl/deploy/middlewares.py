@@ -24,7 +24,7 @@ def check_middlewares(deployment: Deployment, known: KnownMiddlewares) -> Iterat
             yield Diagnostic(codes.MIDDLEWARE, instance.span, message)
         elif not description.capabilities.between_processes:
             message = f"`{instance.name}` uses the middleware `{name}`, which cannot connect "
-            help_text = "name another one: `middleware zenoh;`"
+            help_text = "choose another middleware: `middleware zenoh;`"
             message += "processes"
             yield Diagnostic(codes.MIDDLEWARE, instance.span, message, help=help_text)
         elif missing := missing_modules(description):

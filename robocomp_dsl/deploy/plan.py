@@ -14,6 +14,7 @@ from pathlib import Path
 
 from robocomp_dsl.deploy.connection_flags import connection_flags, middleware_flags, name_for
 from robocomp_dsl.deploy.devices import describe_devices, devices_environment
+from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.plan_text import describe_clock, describe_host
 from robocomp_dsl.model.deployment import (
     START_TIMEOUT_S,
@@ -67,21 +68,6 @@ class Process:
     group: str = ""
     devices: tuple[str, ...] = ()
     is_program: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class ExternalProgram:
-    """A program outside of the deployment; `users` are the components connected to it.
-
-    `role` and `interface` are those of its port: `implements`, `RoboCompLaser::Laser`.
-    """
-
-    name: str
-    middleware: str
-    address: str
-    role: str
-    interface: str
-    users: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)

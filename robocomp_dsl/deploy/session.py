@@ -117,6 +117,7 @@ async def _run(
         supervisor.stop,
         supervisor.simulated_time,
         requests.handle,
+        lambda: supervisor.plan.externals,
         supervisor.external_connections.statuses,
         [process.name for process in plan.processes if process.is_program],
     )

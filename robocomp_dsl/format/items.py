@@ -105,15 +105,17 @@ class _Reader:
         return [Block(opening, items, close, flat)]
 
     def _list_length(self) -> int:
-        """The number of tokens of braces with a plain list; 0 if they contain statements."""
+        """The number of tokens of braces with a list; 0 if they are empty or have statements."""
         words = False
-        for at in range(self._position + 1, len(self._tokens)):
+        depth = 0
+        for at in range(self._position, len(self._tokens)):
             token = self._tokens[at]
-            if token.text == "}":
-                return at + 1 - self._position if words else 0
-            if token.kind == "_SEMI" or token.text == "{":
+            if token.kind == "_SEMI":
                 return 0
-            words = words or not token.is_comment
+            depth += (token.text == "{") - (token.text == "}")
+            if not depth:
+                return at + 1 - self._position if words else 0
+            words = words or not (token.is_comment or token.text in "{}")
         return 0
 
     def _trailing_comments(self, *, or_brace: bool) -> list[FormatToken]:

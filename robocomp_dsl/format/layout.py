@@ -77,7 +77,8 @@ class _RowLayout:
         head = token.text in self.style.breaks and not commented
         if head:
             self.heads.add(len(self.row))
-        self._append(token, may_break=behind_comma or head)
+        wraps = not commented and token.text.lower() in self.style.wraps and token.kind != "UNARY"
+        self._append(token, may_break=behind_comma or head or wraps)
         self.tokens += 1
 
     def _append(self, token: FormatToken, *, may_break: bool = False) -> None:

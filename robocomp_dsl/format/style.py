@@ -24,8 +24,10 @@ class Style:
     """There is no space before tokens in `before`, after tokens in `after`, and between `pairs`.
 
     All are punctuation or kinds of tokens. `second` are kinds without a space after the first word
-    of a statement. A long line may break before `breaks` and after commas. With `inline_braces`,
-    braces around a plain list are not a block.
+    of a statement. A long line may break before `breaks` and after commas, and if that is not
+    enough before `wraps`, words in lower case or punctuation. With `inline_braces`, braces around a
+    plain list are not a block. `operators`: a `-` may be a sign, and brackets with numbers belong
+    to the word before them; the scanner gives these the kinds `UNARY` and `INDEX`.
     """
 
     before: frozenset[str] = _BEFORE
@@ -33,6 +35,8 @@ class Style:
     pairs: frozenset[tuple[str, str]] = frozenset()
     second: frozenset[str] = frozenset()
     breaks: frozenset[str] = frozenset()
+    wraps: frozenset[str] = frozenset()
+    operators: bool = False
     inline_braces: bool = False
 
     def separator(self, left: FormatToken, right: FormatToken, place: int) -> str:
@@ -41,7 +45,8 @@ class Style:
             return ""
         if place == 1 and right.symbol in self.second:
             return ""
-        return "" if (left.symbol, right.symbol) in self.pairs else " "
+        # After the first word of a statement, as in `item (a);`, a parenthesis is no call.
+        return "" if (left.symbol, right.symbol) in self.pairs and place != 1 else " "
 
 
 STYLES: Mapping[str, Style] = {
@@ -69,4 +74,13 @@ STYLES: Mapping[str, Style] = {
     ),
     # :playing parallel { states a, b; };
     "smdsl": Style(after=_AFTER | {":"}),
+    # input a : double[3] [mm] over yarp at "/a";  x = f(-a[0]) to [m] * (b - 1);
+    "bdsl": Style(
+        before=_BEFORE - {"("} | {"INDEX"},
+        after=_AFTER | {"UNARY"},
+        pairs=frozenset((("ID", "("), ("{", "}"))),
+        wraps=frozenset(("over", "at", "to", "->", "+", "-", "*", "/")),
+        operators=True,
+        inline_braces=True,
+    ),
 }

@@ -46,7 +46,7 @@ def export(modules: Sequence[Module], output_format: str, *, alone: bool = False
 
 
 def transitive_modules(modules: Iterable[Module]) -> tuple[Module, ...]:
-    """`modules` and all modules that they import, each once, imported ones first."""
+    """`modules` and all modules that they import, each once, imported modules first."""
     return tuple(dict.fromkeys(imported for module in modules for imported in module.closure()))
 
 

@@ -91,6 +91,15 @@ class DdslLexer(RegexLexer):
     tokens: ClassVar = _states("ddsl")
 
 
+class BdslLexer(RegexLexer):
+    """Bridges."""
+
+    name = "BDSL"
+    aliases: ClassVar = ["bdsl"]
+    filenames: ClassVar = ["*.bdsl"]
+    tokens: ClassVar = _states("bdsl")
+
+
 class SmdslLexer(RegexLexer):
     """State machines."""
 

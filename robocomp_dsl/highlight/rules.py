@@ -18,9 +18,19 @@ from robocomp_dsl.highlight.table import StatementKeywords, Words
 
 NAME = r"[A-Za-z_]\w*"
 _NUMBER = r"0[xX][0-9a-fA-F]+|[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-_BEHIND = {"name": "[A-Za-z_]", "string": '"', "number": r"[-+.\d]"}
+_BEHIND = {"name": "[A-Za-z_]", "string": '"', "number": r"[-+.\d]", "digit": r"\.?\d"}
 _IN_BRACES = r"\{[\w\s,]*\}"
+_OPERATOR = r"->|=>|::|&&|\|\||[=:<>+.!-]"
+_OPERATORS = {"bdsl": r"->|::|[=:+*/.-]"}
+"""The operators of languages with expressions."""
+
 PLAIN = "plain"
+
+
+_BEHIND_TYPE = {
+    "idsl": r"(?=\s+[A-Za-z_]|\s*[<>,)]|\s*$)",
+    "bdsl": r"(?=\s+[A-Za-z_]|\s*[\[;{]|\s*$)",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,9 +113,9 @@ def _statement(words: Words, item: StatementKeywords) -> Context:
         *_listed(words, words.truth, "truth"),
         *_types(words),
         _LITERALS[1],
-        *([HighlightRule(rf"{NAME}(?=\s*\()", ("function",))] if words.language == "idsl" else []),
+        *_functions(words),
         HighlightRule(NAME, ("text",)),
-        HighlightRule(r"->|=>|::|&&|\|\||[=:<>+.!-]", ("operator",)),
+        HighlightRule(_OPERATORS.get(words.language, _OPERATOR), ("operator",)),
         HighlightRule(r"[(),\[\]]", ("punctuation",)),
     ]
     return Context(tuple(rules))
@@ -117,12 +127,18 @@ def _inner(words: Words, word: str) -> str:
 
 
 def _types(words: Words) -> Iterable[HighlightRule]:
-    """Built-in types; in IDSL only where a name or another type follows."""
-    ahead = r"(?=\s+[A-Za-z_]|\s*[<>,)]|\s*$)" if words.language == "idsl" else r"(?![.\w])"
+    """Built-in types; in IDSL and BDSL only where something follows that may follow a type."""
+    ahead = _BEHIND_TYPE.get(words.language, r"(?![.\w])")
     if words.types:
         yield HighlightRule(
             _case(words, rf"(?<![.\w])(?:{'|'.join(words.types)})\b{ahead}"), ("type",)
         )
+
+
+def _functions(words: Words) -> Iterable[HighlightRule]:
+    """Names before a parenthesis, in the languages with operations or functions."""
+    if words.language in ("idsl", "bdsl"):
+        yield HighlightRule(rf"{NAME}(?=\s*\()", ("function",))
 
 
 def _brackets(words: Words) -> Iterable[HighlightRule]:
@@ -130,7 +146,8 @@ def _brackets(words: Words) -> Iterable[HighlightRule]:
     if words.patterns:
         yield HighlightRule(rf"\[\s*(?:{'|'.join(words.patterns)})\s*\]", ("pattern",))
     if words.units:
-        yield HighlightRule(r"\[[\d\s:]*\]", ("number",))
+        numbers = r"\[[\d\s:,]*\]" if words.language == "bdsl" else r"\[[\d\s:]*\]"
+        yield HighlightRule(numbers, ("number",))
         yield HighlightRule(r"\[[^\[\]\n]*\]", ("unit",))
 
 

@@ -12,7 +12,7 @@ from functools import cache
 from robocomp_dsl.resources import GRAMMARS
 
 FILE = GRAMMARS / "words.json"
-LANGUAGES = ("idsl", "cdsl", "pdsl", "ddsl", "smdsl")
+LANGUAGES = ("idsl", "cdsl", "pdsl", "ddsl", "smdsl", "bdsl")
 
 
 @dataclass(frozen=True, slots=True)

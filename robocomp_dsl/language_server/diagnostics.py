@@ -46,7 +46,7 @@ def diagnostics_of(session: Session, checked: CheckResult) -> list[lsp.Diagnosti
 
 
 def _truncate(diagnostics: list[lsp.Diagnostic]) -> list[lsp.Diagnostic]:
-    """The most severe diagnostics, and a last one with the number of the others."""
+    """The most severe diagnostics, and a last diagnostic with the number of the others."""
     shown = sorted(diagnostics, key=lambda item: item.severity or 0)[:MAX_DIAGNOSTICS]
     message = f"{len(diagnostics) - MAX_DIAGNOSTICS} more findings in this file are not shown"
     start = lsp.Range(lsp.Position(0, 0), lsp.Position(0, 0))

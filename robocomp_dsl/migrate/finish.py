@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from robocomp_dsl.check.passes import check_cdsl, check_ddsl
+from robocomp_dsl.check.passes import check_bdsl, check_cdsl, check_ddsl
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report, Severity
 from robocomp_dsl.generate.output import OutputFile
@@ -29,10 +29,12 @@ def generate_components(
             yield place, update_user_files(path.parent, component, files_of(component), report)
 
 
-def check_migrated_deployment(
+def check_migrated_files(
     plan: MigrationPlan, out: Path, folders: Sequence[Path], report: Report
 ) -> None:
-    """Check the deployments that were written."""
+    """Check the deployments and bridges that were written."""
+    for bridge in plan.bridges:
+        check_bdsl(out / bridge, Workspace(folders), report)
     for deployment in plan.deployments:
         check_ddsl(out / deployment, Workspace(folders), report)
 
@@ -43,6 +45,7 @@ def migration_report(
     """`MIGRATION.md`."""
     findings = sorted(report.sorted(), key=lambda d: d.severity is Severity.NOTE)
     steps = [f"rcgen check {place or '.'}" for place, _ in plan.components]
+    steps += [f"rcgen bridge {bridge}" for bridge in plan.bridges]
     started = [place for place, moved in plan.components if moved.component]
     steps += [f"(cd {p} && python3 main.py)" if p else "python3 main.py" for p in started]
     for deployment in plan.deployments:

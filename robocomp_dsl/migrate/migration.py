@@ -15,6 +15,7 @@ report. The stages, in order, one module each:
     manager           the processes of rcmanager or `sub.toml`
     deployment        addresses to `instances`; `connections` connects them, `ddsl` writes them
     yarp              files of yarpmanager and yarprobotinterface
+    bottle_generator  configurations of yarp-bottle-generator
     migration_report  `MIGRATION.md`
 
 Each stage reports errors in its input with file and line, and continues.
@@ -23,7 +24,7 @@ Each stage reports errors in its input with file and line, and continues.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -32,6 +33,7 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.python.component_names import modules_of
 from robocomp_dsl.migrate import codes
+from robocomp_dsl.migrate.bottle_generator.convert import convert_file
 from robocomp_dsl.migrate.component import interface_files, migrate_component
 from robocomp_dsl.migrate.ddsl import PEERS, ddsl_text, interfaces_in, peer_files
 from robocomp_dsl.migrate.deployment import candidate_names, draft_deployment, find_interface
@@ -50,7 +52,7 @@ class MigrationPlan:
     """The files to write below the output folder.
 
     `components` are pairs of folder and component, `converted_files` pairs of old and new path;
-    `worlds` are files from which simulators are generated.
+    `worlds` are files from which simulators are generated, `bridges` files in BDSL.
     """
 
     name: str
@@ -59,6 +61,7 @@ class MigrationPlan:
     components: list[tuple[str, MigratedComponent]] = field(default_factory=list)
     deployments: list[str] = field(default_factory=list)
     worlds: list[str] = field(default_factory=list)
+    bridges: list[str] = field(default_factory=list)
 
 
 def plan_migration(
@@ -67,15 +70,18 @@ def plan_migration(
     folders: Sequence[Path],
     report: Report,
     tags: Sequence[str] = (),
+    topic_types: Mapping[str, str] | None = None,
 ) -> MigrationPlan:
     """Plan the migration of component folders, manager files and files of YARP.
 
     A single component folder is migrated to `out` itself, several to one folder each below it.
     `tags` enable optional parts of robots of YARP.
+    `topic_types` are types of ROS topics, `package/Type`, for bridges.
     """
     files = [path for path in inputs if not path.is_dir()]
     yarp_files = [path for path in files if is_yarp_file(path)]
-    managers = [path for path in files if path not in yarp_files]
+    configurations = [path for path in files if path.suffix.lower() == ".ini"]
+    managers = [path for path in files if path not in (*yarp_files, *configurations)]
     sources = [path for path in inputs if path.is_dir()]
     alone = len(inputs) == 1 and bool(sources)
     plan = MigrationPlan("deployment")
@@ -96,6 +102,7 @@ def plan_migration(
     nodes = [node for _, file_nodes in read for node in file_nodes]
     _add_deployment(plan, managers, nodes, out, folders, report)
     _add_yarp_files(plan, yarp_files, out, tags, report)
+    _add_bridges(plan, configurations, folders, report, topic_types or {})
     for place, moved in plan.components:
         before = f"{place}/" if place else ""
         for file in moved.files:
@@ -121,6 +128,25 @@ def _add_yarp_files(
     plan.worlds += yarp.worlds
     if yarp.deployments and not plan.components:
         plan.name = yarp.deployments[0].removesuffix(".ddsl")
+
+
+def _add_bridges(
+    plan: MigrationPlan,
+    paths: Sequence[Path],
+    folders: Sequence[Path],
+    report: Report,
+    topic_types: Mapping[str, str],
+) -> None:
+    """Add the bridges of configurations of yarp-bottle-generator."""
+    for path in paths:
+        bridge = convert_file(path, Workspace(folders), report, topic_types)
+        if bridge is None:
+            continue
+        name = f"{bridge.name}.bdsl"
+        plan.files.append(OutputFile(name, bridge.formatted()))
+        plan.converted_files.append((path.name, name))
+        plan.bridges.append(name)
+        plan.name = plan.name if plan.components or plan.deployments else bridge.name
 
 
 def _manager_configs(

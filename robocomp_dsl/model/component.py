@@ -63,6 +63,8 @@ class Component(Record):
     `language` is as written (`Python`, `Cpp`, `Cpp11`) at `language_span`; `period` in ms, 0: no
     periodic calls; `threads` 1: serialised execution; `watchdog_s` 0: no watchdog. `modules` are
     the imported IDSL modules (direct imports). `middleware_span` None: the default middleware.
+    `invalid_ports` are the names of ports that `ports` lacks: their errors are reported in this
+    file, so other files say nothing about them.
     """
 
     name: str
@@ -82,6 +84,7 @@ class Component(Record):
     doc: str = ""
     language_span: Span | None = None
     middleware_span: Span | None = None
+    invalid_ports: frozenset[str] = frozenset()
 
     def with_role(self, role: Role) -> tuple[Port, ...]:
         """The ports of one role, in order of writing."""

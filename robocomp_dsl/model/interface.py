@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import StrEnum
 from pathlib import Path
 
-from robocomp_dsl.model.types import Declaration, ExceptionType, Struct, Type
+from robocomp_dsl.model.types import Alias, Declaration, ExceptionType, Literal, Struct, Type
 from robocomp_dsl.record import Record
 from robocomp_dsl.source import Span
 
@@ -25,12 +25,13 @@ class Pattern(StrEnum):
 
 
 class Param(Record):
-    """A parameter of an operation."""
+    """A parameter of an operation. Only arguments of a Thrift service have a `default`."""
 
     name: str
     type: Type
     span: Span
     unit: str = ""
+    default: Literal | None = None
 
 
 class Operation(Record):
@@ -49,6 +50,14 @@ class Operation(Record):
     idempotent: bool
     marked: bool
     doc: str = ""
+
+    @property
+    def optional_inputs(self) -> tuple[Param, ...]:
+        """The last inputs that all have a default: callers may leave them out."""
+        count = 0
+        while count < len(self.inputs) and self.inputs[-1 - count].default is not None:
+            count += 1
+        return self.inputs[len(self.inputs) - count :]
 
     @property
     def ros_service(self) -> str:
@@ -80,15 +89,28 @@ class Operation(Record):
 
 
 class Interface(Declaration):
-    """An interface of a module."""
+    """An interface of a module. `style` is "thrift" for a service of a Thrift definition, else "".
+
+    A middleware may have a wire form for a style: YARP carries calls as yarpidl_thrift does.
+    The first of its operations are those of its `base`.
+    """
 
     operations: tuple[Operation, ...]
+    style: str = ""
+    base: Interface | None = None
+
+    @property
+    def own_operations(self) -> tuple[Operation, ...]:
+        """The operations that are declared in the interface itself."""
+        return self.operations[len(self.base.operations) if self.base else 0 :]
 
 
 class Module(Record):
     """One IDSL file, resolved. `declarations` holds types, exceptions and interfaces in order.
 
-    `imports` are the modules it imports, resolved, in order of writing.
+    `imports` are the modules it imports, resolved, in order of writing; `aliases` are other names
+    of types, which only Thrift definitions have. `origin` is the language of an imported
+    definition, "ros", "thrift" or "bottle", else "".
     """
 
     name: str
@@ -97,6 +119,8 @@ class Module(Record):
     doc: str
     imports: tuple[Module, ...]
     declarations: tuple[Declaration, ...]
+    aliases: tuple[Alias, ...] = ()
+    origin: str = ""
 
     @property
     def interfaces(self) -> tuple[Interface, ...]:
@@ -106,7 +130,7 @@ class Module(Record):
     @property
     def is_ros(self) -> bool:
         """Whether it is a ROS definition."""
-        return any(isinstance(d, Struct) and d.ros_name for d in self.declarations)
+        return self.origin == "ros"
 
     def closure(self) -> tuple[Module, ...]:
         """The module and all its direct and indirect imports, imported modules first."""

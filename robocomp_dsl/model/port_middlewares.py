@@ -56,7 +56,7 @@ def shared_middlewares(connection: Connection, deployment: str) -> tuple[str, ..
 def port_middlewares(
     instance: Instance, port: Port, connections: Iterable[Connection], deployment: str
 ) -> tuple[str, ...]:
-    """All middlewares that a port uses: the declared ones and those of its connections."""
+    """All middlewares that a port uses: those that are declared and those of its connections."""
     declared = declared_middlewares(instance, port, deployment)
     default = declared or (instance.component.middleware,)
     names: dict[str, None] = {}

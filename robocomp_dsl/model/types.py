@@ -175,6 +175,12 @@ class Dictionary(Declaration):
     value: Type
 
 
+class Alias(Declaration):
+    """Another name of a type, from a `typedef` of Thrift; fields have the type itself."""
+
+    target: Type
+
+
 Type: TypeAlias = Primitive | Struct | Enum | Sequence | Dictionary
 
 

@@ -13,18 +13,36 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.component.component import Component
     from robocomp_dsl.runtime.component.spec import CalledPort, ComponentSpec, ServedPort
+    from robocomp_dsl.runtime.connection.message_stamp import (
+        MessageStamp,
+        message_stamp,
+        publishing_stamp,
+    )
     from robocomp_dsl.runtime.connection.monitor import Monitor
     from robocomp_dsl.runtime.entry_point import main
 
-__all__ = ["CalledPort", "Component", "ComponentSpec", "Monitor", "ServedPort", "main"]
+__all__ = [
+    "CalledPort",
+    "Component",
+    "ComponentSpec",
+    "MessageStamp",
+    "Monitor",
+    "ServedPort",
+    "main",
+    "message_stamp",
+    "publishing_stamp",
+]
 
 _MODULES = {
     "CalledPort": "robocomp_dsl.runtime.component.spec",
     "Component": "robocomp_dsl.runtime.component.component",
     "ComponentSpec": "robocomp_dsl.runtime.component.spec",
+    "MessageStamp": "robocomp_dsl.runtime.connection.message_stamp",
     "Monitor": "robocomp_dsl.runtime.connection.monitor",
     "ServedPort": "robocomp_dsl.runtime.component.spec",
     "main": "robocomp_dsl.runtime.entry_point",
+    "message_stamp": "robocomp_dsl.runtime.connection.message_stamp",
+    "publishing_stamp": "robocomp_dsl.runtime.connection.message_stamp",
 }
 
 

@@ -44,7 +44,7 @@ class DomainClient:
         self._middleware = open_ports(middleware, host)
 
     def components(self, timeout: float = 1.0) -> list[str]:
-        """The names of the components in the domain; waits up to `timeout` s for the first one."""
+        """The names of the components in the domain; waits at most `timeout` s for a name."""
         return self._middleware.find_servers(COMPONENT, timeout)
 
     def component(self, name: str) -> ComponentProxy:

@@ -33,6 +33,7 @@ from robocomp_dsl.runtime.component.settings import (
     parse_prefix,
     parse_remaps,
     parse_transport_settings,
+    with_defaults,
 )
 from robocomp_dsl.runtime.component.spec import ComponentSpec
 from robocomp_dsl.runtime.component.user_errors import TRACEBACK_VARIABLE
@@ -272,10 +273,11 @@ def _default_log_level() -> str:
 
 def _settings(options: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
     """The settings of the command line. Raises `InvalidSetting`."""
-    internal, external = parse_external(options.connect)
+    internal, external = parse_external(with_defaults(spec.connections, options.connect))
     connections = parse_connections(internal)
-    qos, peer_qos = parse_qos(options.qos)
-    remaps, addresses = parse_remaps(options.remap), parse_addresses(options.address)
+    qos, peer_qos = parse_qos(with_defaults(spec.qualities, options.qos))
+    remaps = parse_remaps(options.remap)
+    addresses = parse_addresses(with_defaults(spec.addresses, options.address))
     middleware, port_middlewares = parse_middlewares(options.middleware)
     ports = list(_ports(spec))
     monitors = _monitors(options.monitors)

@@ -11,8 +11,11 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.source import Source
+from robocomp_dsl.syntax.definitions import BOTTLE_SUFFIX, THRIFT_SUFFIX
+from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
 if TYPE_CHECKING:
+    from robocomp_dsl.syntax.ast import bdsl as ast_bdsl
     from robocomp_dsl.syntax.ast import cdsl as ast_cdsl
     from robocomp_dsl.syntax.ast import ddsl as ast_ddsl
     from robocomp_dsl.syntax.ast import idsl as ast_idsl
@@ -21,7 +24,12 @@ if TYPE_CHECKING:
     from robocomp_dsl.syntax.ast import smdsl as ast_smdsl
 
     AnyFile: TypeAlias = (
-        ast_idsl.File | ast_cdsl.File | ast_pdsl.File | ast_ddsl.File | ast_smdsl.File
+        ast_idsl.File
+        | ast_cdsl.File
+        | ast_pdsl.File
+        | ast_ddsl.File
+        | ast_smdsl.File
+        | ast_bdsl.File
     )
 
 
@@ -35,6 +43,20 @@ def parse_idsl(source: Source, report: Report) -> ast_idsl.File:
 def parse_ros(source: Source, report: Report) -> ast_idsl.File:
     """The tree of a ROS definition: `.msg`, `.srv` or `.action`."""
     from robocomp_dsl.syntax.ros import definition  # noqa: PLC0415 - loaded on first use
+
+    return definition.parse(source, report)
+
+
+def parse_thrift(source: Source, report: Report) -> ast_idsl.File:
+    """The tree of a Thrift definition."""
+    from robocomp_dsl.syntax.thrift import definition  # noqa: PLC0415 - loaded on first use
+
+    return definition.parse(source, report)
+
+
+def parse_bottle(source: Source, report: Report) -> ast_idsl.File:
+    """The tree of a Bottle definition."""
+    from robocomp_dsl.syntax.bottle import definition  # noqa: PLC0415 - loaded on first use
 
     return definition.parse(source, report)
 
@@ -67,6 +89,13 @@ def parse_smdsl(source: Source, report: Report) -> ast_smdsl.File:
     return smdsl.parse(source, report)
 
 
+def parse_bdsl(source: Source, report: Report) -> ast_bdsl.File:
+    """The tree of a bridge."""
+    from robocomp_dsl.syntax.languages import bdsl  # noqa: PLC0415 - loaded on first use
+
+    return bdsl.parse(source, report)
+
+
 def parse_innermodel(source: Source, report: Report) -> ast_innermodel.File:
     """The tree of an InnerModel file (XML)."""
     from robocomp_dsl.syntax.xml import innermodel  # noqa: PLC0415 - loaded on first use
@@ -94,5 +123,13 @@ LANGUAGES: Mapping[str, Callable[[Source, Report], AnyFile]] = {
     ".pdsl": parse_pdsl,
     ".ddsl": parse_ddsl,
     ".smdsl": parse_smdsl,
+    ".bdsl": parse_bdsl,
 }
 """File suffix (lower case) to parser."""
+
+DEFINITIONS: Mapping[str, Callable[[Source, Report], ast_idsl.File]] = {
+    **dict.fromkeys(ROS_SUFFIXES, parse_ros),
+    THRIFT_SUFFIX: parse_thrift,
+    BOTTLE_SUFFIX: parse_bottle,
+}
+"""The same for the definitions that IDSL imports as modules: see `syntax/definitions.py`."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.runtime.middleware.capabilities import Capabilities, MiddlewareDescription
+from robocomp_dsl.runtime.middleware.registry import description_of
 
 HOUSE = Capabilities(
     between_hosts=True, reports_source=True, qos=frozenset({"reliable", "priority"})
@@ -42,3 +43,15 @@ OTHER_MIDDLEWARES = FixedMiddlewares(
         MiddlewareDescription("zenoh", "the default", HOUSE, "zenoh:open"),
     )
 )
+
+
+def _built_in(name: str) -> MiddlewareDescription:
+    description = description_of(name)
+    assert description is not None
+    return description
+
+
+BRIDGED_MIDDLEWARES = FixedMiddlewares(
+    tuple(_built_in(name) for name in ("ice", "inproc", "ros2", "yarp", "zenoh"))
+)
+"""Those between which the cases of bridges pass data."""

@@ -10,7 +10,7 @@ from robocomp_dsl.check.languages import CHECKS, TACTILE, check_file
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.cli.rcgen.explain import stage_codes
 from robocomp_dsl.diagnostics import Code, Report
-from tests.check.other_middlewares import OTHER_MIDDLEWARES
+from tests.check.other_middlewares import BRIDGED_MIDDLEWARES, OTHER_MIDDLEWARES
 from tests.check.report_text import report_text
 
 HERE = Path(__file__).parent.parent
@@ -39,12 +39,15 @@ def _in_tests(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(HERE)  # messages contain relative paths only
 
 
+def _workspace(case: Path) -> Workspace:
+    middlewares = BRIDGED_MIDDLEWARES if case.suffix == ".bdsl" else OTHER_MIDDLEWARES
+    return Workspace(environ={}, shipped=INTERFACES, middlewares=middlewares)
+
+
 @pytest.mark.parametrize("case", _cases(), ids=str)
 def test_check_file_reports_expected_diagnostics(case: Path, update_golden: bool) -> None:
     report = Report()
-    check_file(
-        case, Workspace(environ={}, shipped=INTERFACES, middlewares=OTHER_MIDDLEWARES), report
-    )
+    check_file(case, _workspace(case), report)
     actual = report_text(report, case.parent)
     if update_golden:
         _expected(case).write_text(actual)
@@ -53,7 +56,7 @@ def test_check_file_reports_expected_diagnostics(case: Path, update_golden: bool
 
 @pytest.mark.parametrize("case", _cases(), ids=str)
 def test_check_file_is_idempotent(case: Path) -> None:
-    workspace = Workspace(environ={}, shipped=INTERFACES, middlewares=OTHER_MIDDLEWARES)
+    workspace = _workspace(case)
     first, second = Report(), Report()
     check_file(case, workspace, first)
     check_file(case, workspace, second)

@@ -1,7 +1,9 @@
 """Components for the tests of the supervisor: scripts, and a monitor that receives their states.
 
 A script reports its state through a FIFO, as a component does through its liveliness token and the
-interface `Component`. `PRELUDE` gives it `report(state)`, `wait()` until SIGTERM, and its `NAME`.
+interface `Component`. `PRELUDE` gives it `report(state)`, `wait()` until SIGTERM, `stopped`, and
+its `NAME`. `stopped` is no `threading.Event`: a signal handler that sets an event deadlocks if it
+interrupts the main thread while that holds the lock of the event.
 """
 
 from __future__ import annotations
@@ -15,15 +17,19 @@ from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.deploy.supervisor.lifecycle_monitor import StateCallback
 
 PRELUDE = """
-import os, signal, sys, threading
+import os, select, signal, sys, threading
 NAME, FIFO = sys.argv[1], sys.argv[2]
-stopped = threading.Event()
-signal.signal(signal.SIGTERM, lambda *_: stopped.set())
+class Stopped:
+    def __init__(self): self.read_end, self.write_end = os.pipe()
+    def set(self, *_): os.write(self.write_end, b".")
+    def is_set(self, seconds=0): return bool(select.select([self.read_end], [], [], seconds)[0])
+stopped = Stopped()
+signal.signal(signal.SIGTERM, stopped.set)
 def report(state):
     with open(FIFO, "w") as out:
         out.write(f"{NAME} {os.getpid()} {state}\\n")
 def wait():
-    while not stopped.wait(0.2): pass
+    stopped.is_set(None)
 """
 STEADY = 'report("initialize"); report("compute"); wait(); print("finalized")'
 

@@ -1,15 +1,18 @@
 """A deployment of scripted processes in its own process: `scripted_session.py FOLDER NAME SPEC`.
 
-SPEC is a JSON list of `{name, body, after}`. Prints every record as one line of text.
+SPEC is a JSON list of `{name, body, after}`, and of `{extern}` with the fields of an external
+program. Prints every record as one line of text.
 """
 
 from __future__ import annotations
 
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 from robocomp_dsl.deploy import instances, session
+from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.supervisor.supervisor import Options
 from tests.deploy.scripted_processes import FifoLifecycleMonitor, make_plan, scripted_process
@@ -28,7 +31,9 @@ def print_line(text: str) -> None:
 def main() -> int:
     where, name = Path(sys.argv[1]), sys.argv[2]
     where.mkdir(exist_ok=True)
-    spec = json.loads(sys.argv[3])
+    entries = json.loads(sys.argv[3])
+    externals = [ExternalProgram.from_dict(e["extern"]) for e in entries if "extern" in e]
+    spec = [entry for entry in entries if "extern" not in entry]
     processes = [
         scripted_process(
             where,
@@ -39,7 +44,7 @@ def main() -> int:
         )
         for process in spec
     ]
-    plan = make_plan(where, *processes, name=name)
+    plan = replace(make_plan(where, *processes, name=name), externals=tuple(externals))
     try:
         claim = instances.acquire(name)
     except instances.Unavailable as error:

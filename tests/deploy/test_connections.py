@@ -102,6 +102,12 @@ def test_remap_renames_and_names_back(deployment: Deployment) -> None:
         (("connect", "a", "b"), 1, "no two of these ports fit"),
         (("connect", "b", "sink"), 1, "which connection? Name both ports"),
         (("connect", "b.News", "sink.News", "--over", "pigeon"), 1, "no middleware `pigeon`"),
+        (
+            ("connect", "b.News", "sink.News", "--over", "local"),
+            1,
+            "`b.News` is on `zenoh`, so `News` cannot be connected to it over `local`;"
+            " `--over zenoh`",
+        ),
         (("connect", "a.News", "x@zenoh:abc"), 1, "no required or subscribed port"),
         (("disconnect", "b.News", "sink.News"), 1, "not connected to `b.News`"),
         (("disconnect", "sink.News", "nobody.News"), 1, "not connected to `nobody.News`"),

@@ -28,5 +28,8 @@ def test_inspect_commands_find_components_of_deployment(app_folder: Path) -> Non
         assert "disconnected until eye ends" in removed.stdout, removed.stderr
         again = rcdeploy("app.ddsl", "connect", "eye.Laser", "arm.Laser")
         assert "connect eye.Laser -> arm.Laser;" in again.stdout, again.stderr
+        assert rcdeploy("connections", "app").stdout.count("Laser") >= 2
+        changed = rcdeploy("qos", "app", "eye.Laser", "arm.Laser", "priority=off")
+        assert changed.stdout.startswith("eye.Laser with arm.Laser: the defaults"), changed.stderr
         wrong = rcdeploy("call", "amr.Laser.getLaserData")
         assert (wrong.returncode, "it has arm, eye" in wrong.stderr) == (1, True), wrong.stderr

@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 
 from robocomp_dsl.deploy.plan import batches, plan
-from robocomp_dsl.deploy.qos_text import format_qos
 from robocomp_dsl.model.component import Component, Port, Role
 from robocomp_dsl.model.deployment import Clock, Connection, Deployment, Host, Instance, Qos
 from robocomp_dsl.model.interface import Interface
 from robocomp_dsl.model.parameter import ParameterSet
+from robocomp_dsl.model.qos_text import format_qos
 from robocomp_dsl.runtime.component.qos_settings import parse_qos
 from robocomp_dsl.runtime.connection.endpoint import Qos as RuntimeQos
 from robocomp_dsl.source import Source

@@ -48,7 +48,7 @@ def test_preflight_reports_middleware_of_one_process(tmp_path: Path) -> None:
         (
             "body",
             "`body` uses the middleware `shm`, which cannot connect processes",
-            "name another one: `middleware zenoh;`",
+            "choose another middleware: `middleware zenoh;`",
         )
     ]
 

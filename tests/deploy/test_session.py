@@ -14,8 +14,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from click.testing import CliRunner
 
+from robocomp_dsl.cli.rcdeploy.main import program
 from robocomp_dsl.deploy import control, instances
+from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.supervisor import reaper
 from robocomp_dsl.deploy.supervisor.resource_limits import process_tree
 from tests.deploy.rcdeploy_process import DEADLINE_S, RunningProcess, runtime_folder
@@ -132,7 +135,7 @@ def test_session_replaces_reaper_that_died(tmp_path: Path, sessions: ExitStack) 
     first = reaper_of(session.process.pid)
     os.kill(first, signal.SIGKILL)
     line = session.until(f"the reaper (pid {first})")
-    assert "died (killed by SIGKILL); started a new one" in line
+    assert "died (killed by SIGKILL); started another reaper" in line
     second = int(re.findall(r"pid (\d+)", line)[1])
     assert is_alive(second)
     running = pids("demo")
@@ -187,6 +190,17 @@ def test_control_socket_serves_status_logs_and_stop(tmp_path: Path, sessions: Ex
     assert session.end() == 0
     with pytest.raises(instances.Unavailable, match="`demo` does not respond"):
         list(control.send_request("demo", {"verb": "status"}))
+
+
+def test_status_shows_external_programs(tmp_path: Path, sessions: ExitStack) -> None:
+    gui = ExternalProgram("gui", "ice", "", "requires", "RoboCompLaser::Laser", ("a", "b"))
+    spec = [*PAIR, {"extern": gui.as_dict()}]
+    start_session(sessions, tmp_path / "x", spec).until("all 2 components are ready")
+    text = CliRunner().invoke(program, ["status", "demo"]).output.splitlines()
+    assert text[-1] == "external gui: requires RoboCompLaser::Laser over ice, used by a, b"
+    data = json.loads(CliRunner().invoke(program, ["status", "demo", "--format", "json"]).output)
+    assert data["externals"] == [gui.as_dict()]
+    assert [row["name"] for row in data["components"]] == ["a", "b"]
 
 
 def test_session_rejects_name_in_use_with_pid(tmp_path: Path, sessions: ExitStack) -> None:

@@ -12,7 +12,7 @@ from robocomp_dsl.diagnostics import Report
 from tests.docs.blocks import ROOT, Block, blocks
 
 REFERENCE = ROOT / "docs" / "reference"
-LANGUAGES = {"idsl", "cdsl", "pdsl", "ddsl", "smdsl", "innermodel"}
+LANGUAGES = {"idsl", "cdsl", "pdsl", "ddsl", "smdsl", "bdsl", "innermodel"}
 EXAMPLES = [
     block
     for name in sorted(LANGUAGES)
@@ -38,4 +38,4 @@ def test_example_parses_without_a_finding(block: Block, tmp_path: Path) -> None:
 
 def test_every_language_has_an_example() -> None:
     suffixes = {_suffix(block) for block in EXAMPLES}
-    assert suffixes == {".idsl", ".cdsl", ".pdsl", ".ddsl", ".smdsl", ".scxml", ".xml"}
+    assert suffixes == {".idsl", ".cdsl", ".pdsl", ".ddsl", ".smdsl", ".bdsl", ".scxml", ".xml"}

@@ -13,7 +13,7 @@ import pytest
 
 from tests.support.real_editor import EDITORS
 
-BRACES = {"idsl", "cdsl", "pdsl", "ddsl", "smdsl"}
+BRACES = {"idsl", "cdsl", "pdsl", "ddsl", "smdsl", "bdsl"}
 COMMAND = ["rcgen", "lsp"]
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from robocomp_dsl.check.languages import CHECKS
 from robocomp_dsl.format.formatter import PARSERS
-from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
+from robocomp_dsl.syntax.definitions import DEFINITION_SUFFIXES
 from tests.format.formats import CASES, fmt
 
 CASE_FILES = sorted(path for path in CASES.iterdir() if path.suffix != ".out")
@@ -25,5 +25,7 @@ def test_format_case(case: Path, update_golden: bool) -> None:
 
 
 def test_every_format_language_has_a_case() -> None:
-    # The layout of ROS definitions belongs to the ROS packages that declare them.
-    assert {case.suffix for case in CASE_FILES} == set(PARSERS) == set(CHECKS) - {*ROS_SUFFIXES}
+    # The layout of definitions belongs to the packages of ROS and YARP that declare them.
+    assert (
+        {case.suffix for case in CASE_FILES} == set(PARSERS) == set(CHECKS) - {*DEFINITION_SUFFIXES}
+    )

@@ -109,6 +109,7 @@ TEXTS = {
         ROOT / "tests" / "cases" / "smdsl" / "sem_clean.smdsl",
         ROOT / "tests" / "cases" / "pdsl" / "sem_clean.pdsl",
         ROOT / "tests" / "cases" / "idsl" / "sem_clean.idsl",
+        ROOT / "tests" / "cases" / "bdsl" / "syntax_clean.bdsl",
     ]
 }
 

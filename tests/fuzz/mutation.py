@@ -89,6 +89,29 @@ ROS_WORDS = (
     *("int32", "uint8", "float64", "bool", "string", "string<=3", "wstring", "byte", "char"),
     *("Header", "std_msgs/Header", "time", "duration", "[3]", "[<=4]", "[]", "X=1", "---", "#"),
 )
+THRIFT_WORDS = (
+    *("struct S {", "enum", "union", "service", "exception", "typedef", "const", "include"),
+    *("namespace yarp", "extends", "throws (", "oneway", "void", "optional", "required", "list<"),
+    *("map<", "set<", "i32", "double", "binary", "string", "1:", "yarp.name", "#", '"yarp::X"'),
+)
+BOTTLE_WORDS = (
+    "int32",
+    "float64",
+    "string",
+    "blob",
+    "(",
+    ")",
+    "(x (int32 y))",
+    "*",
+    "…",
+    "[m]",
+    "#",
+)
+DEFINITION_WORDS = {
+    **dict.fromkeys(ROS_SUFFIXES, ROS_WORDS),
+    ".thrift": THRIFT_WORDS,
+    ".bottle": BOTTLE_WORDS,
+}
 
 
 @cache
@@ -106,8 +129,8 @@ def words(suffix: str) -> tuple[str, ...]:
     """Keywords and punctuation of a language, and unknown characters."""
     if suffix in (".xml", ".scxml"):
         return (*TAGS, *SIGNS)
-    if suffix in ROS_SUFFIXES:
-        return (*ROS_WORDS, *SIGNS)
+    if suffix in DEFINITION_WORDS:
+        return (*DEFINITION_WORDS[suffix], *SIGNS)
     return (*sorted(load(suffix[1:]).keywords), *SIGNS, "int", "Near", "a", "x1")
 
 

@@ -55,7 +55,7 @@ def assert_tree_is_valid(suffix: str, text: str) -> None:
         low, high = outer[id(node)]
         assert low <= node.span.start <= node.span.end <= high, f"{node!r} is not in its parent"
         outer |= {id(child): (node.span.start, node.span.end) for child in _children(node)}
-    if not len(report) and suffix in (".idsl", ".cdsl", ".pdsl", ".ddsl", ".smdsl"):
+    if not len(report) and suffix in (".idsl", ".cdsl", ".pdsl", ".ddsl", ".smdsl", ".bdsl"):
         _assert_nothing_lost(source, tree)
 
 

@@ -78,6 +78,26 @@ CASES = [
     ),
     ("smdsl", "transition { };", "Keyword.Pseudo"),
     ("smdsl", ":playing parallel { };", "Operator Name Keyword.Reserved"),
+    (
+        "bdsl",
+        'input rate : double[] [deg] over yarp at "/rate";',
+        "Keyword.Declaration Name.Class Operator Keyword.Type Literal.Number Name.Attribute"
+        " Keyword.Reserved Name Keyword.Reserved Literal.String",
+    ),
+    ("bdsl", "rate 50 Hz;", "Keyword Literal.Number Name.Attribute"),
+    ("bdsl", "rate = now;", "Name Operator Keyword.Constant"),
+    ("bdsl", "item.call[0] = 1;", "Name Operator Name Literal.Number Operator Literal.Number"),
+    (
+        "bdsl",
+        "x = mirror(a[0,1]) * 2 to [rad];",
+        "Name Operator Name.Function Name Literal.Number Operator Literal.Number Keyword.Reserved"
+        " Name.Attribute",
+    ),
+    (
+        "bdsl",
+        "policy synchronised within 20 ms;",
+        "Keyword Name.Constant Keyword.Reserved Literal.Number Name.Attribute",
+    ),
 ]
 
 

@@ -38,6 +38,9 @@ STATEMENTS = [
     "x float 1.0 [mm] 0:2;\n",
     "component a of B { after b; };\n",
     "connect a.X -> b.Y;\n",
+    "input a : double[] [deg] over yarp;\n",
+    "output b : M::T { x = a[0] to [rad] * -1; };\n",
+    "x = {",
     "}",
     "\r\n",
 ]

@@ -11,6 +11,8 @@ from robocomp_dsl.cli.rcgen.explain import stage_codes
 from robocomp_dsl.diagnostics import Code, Report
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.parse import (
+    parse_bdsl,
+    parse_bottle,
     parse_cdsl,
     parse_ddsl,
     parse_idsl,
@@ -18,11 +20,15 @@ from robocomp_dsl.syntax.parse import (
     parse_pdsl,
     parse_ros,
     parse_smdsl,
+    parse_thrift,
 )
 
 HEADS = {
+    r"^\s*\d+:|^\s*(service|union)\b|\byarp\.name\b": (".thrift", parse_thrift),
+    r"^\((\w+ )+": (".bottle", parse_bottle),
     r"^\s*ComponentParams\b": (".pdsl", parse_pdsl),
     r"^\s*Deployment\b": (".ddsl", parse_ddsl),
+    r"^\s*Bridge\b": (".bdsl", parse_bdsl),
     r"\b(initial_state|transitions?)\b": (".smdsl", parse_smdsl),
     r"^\s*(Component|Communications)\b": (".cdsl", parse_cdsl),
     r"^\s*(module|Module|struct|interface|import)\b": (".idsl", parse_idsl),

@@ -28,6 +28,7 @@ HEADS = {
     ".cdsl": "Component C {\n",
     ".pdsl": "ComponentParams P {\n",
     ".ddsl": "Deployment D {\n",
+    ".bdsl": "Bridge B { output o {\n",
 }
 PIECES = [
     "{",

@@ -3,7 +3,7 @@
 
 local M = {}
 
-M.languages = { 'idsl', 'cdsl', 'pdsl', 'ddsl', 'smdsl' }
+M.languages = { 'idsl', 'cdsl', 'pdsl', 'ddsl', 'smdsl', 'bdsl' }
 M.filetypes = vim.list_extend({ 'xml' }, M.languages)
 
 -- The project of a file is the nearest folder above it that contains one of these.

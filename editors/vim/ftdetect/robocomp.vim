@@ -4,3 +4,4 @@ autocmd BufNewFile,BufRead *.cdsl setfiletype cdsl
 autocmd BufNewFile,BufRead *.pdsl setfiletype pdsl
 autocmd BufNewFile,BufRead *.ddsl setfiletype ddsl
 autocmd BufNewFile,BufRead *.smdsl setfiletype smdsl
+autocmd BufNewFile,BufRead *.bdsl setfiletype bdsl

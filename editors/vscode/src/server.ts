@@ -12,7 +12,7 @@ import {
 
 import { rcgen } from "./places";
 
-export const LANGUAGES = ["idsl", "cdsl", "pdsl", "ddsl", "smdsl", "scxml", "innermodel"];
+export const LANGUAGES = ["idsl", "cdsl", "pdsl", "ddsl", "smdsl", "bdsl", "scxml", "innermodel"];
 const SHOW_REFERENCES = "rcgen.showReferences";
 const CHOOSE = "Choose rcgen …";
 const SETTINGS = "Open settings";
@@ -77,7 +77,7 @@ function options(output: vscode.OutputChannel): LanguageClientOptions {
     documentSelector: LANGUAGES.map((language) => ({ scheme: "file", language })),
     outputChannel: output,
     synchronize: {
-      fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{idsl,cdsl,pdsl,ddsl,smdsl,scxml,xml,py}"),
+      fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{idsl,cdsl,pdsl,ddsl,smdsl,bdsl,scxml,xml,py}"),
     },
     middleware: { executeCommand },
   };

@@ -52,7 +52,10 @@ def resolve_cdsl(
     links = workspace.modules.resolve_imports(expanded.imports, report)
     report.extend(transitive_errors(links))
     scope = workspace.modules.import_scope(file, links)
-    pairs = _ports(expanded.ports, scope, workspace, report)
+    names = port_names(expanded.ports, report)
+    pairs = _ports(expanded.ports, names, scope, workspace, report)
+    valid = {id(tree) for tree, _ in pairs}
+    invalid = (names.get(id(tree)) for tree in expanded.ports if id(tree) not in valid)
     middleware = find_middleware(tree.middleware, workspace.middlewares, report)
     component = Component(
         name=tree.name.text,
@@ -72,15 +75,19 @@ def resolve_cdsl(
         gui=tree.gui.widget.text if tree.gui else "",
         options=tuple(option.text for option in tree.options),
         doc=tree.doc,
+        invalid_ports=frozenset(name for name in invalid if name),
     )
     check_roles(pairs, component, workspace.middlewares, report)
     return ResolvedComponent(component, pairs)
 
 
 def _ports(
-    trees: Sequence[ast.Port], scope: ImportScope, workspace: Workspace, report: Report
+    trees: Sequence[ast.Port],
+    names: dict[int, str],
+    scope: ImportScope,
+    workspace: Workspace,
+    report: Report,
 ) -> list[tuple[ast.Port, Port]]:
-    names = port_names(trees, report)
     pairs = []
     for tree in trees:
         interface = find_interface(tree.interface, scope, report)

@@ -28,8 +28,13 @@ from robocomp_dsl.source import Span
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.middleware.capabilities import Capabilities
 
-_TOPIC_ITEMS = ("keep_all", "latched", "deadline_ms", "liveliness_ms")
-_NAMES = {"keep_all": "keep all", "deadline_ms": "deadline", "liveliness_ms": "liveliness"}
+QOS_WORDS = {
+    "keep_all": "keep all",
+    "latched": "latched",
+    "deadline_ms": "deadline",
+    "liveliness_ms": "liveliness",
+}
+"""The items of `Qos` that are for topics only, and how users write them."""
 
 
 class _Problem(ValueRecord):
@@ -173,9 +178,9 @@ def _problems(connection: Connection, name: str, capabilities: Capabilities) -> 
                     yield _Problem(codes.UNSUITABLE_MIDDLEWARE, message)
     if capabilities.ros_types_only:
         yield from _ros_problems(connection.source_port, name)
-    for item in _required_items(connection.qos, is_topic=connection.source_port.role.is_topic):
+    for item in required_qos(connection.qos, is_topic=connection.source_port.role.is_topic):
         if item not in capabilities.qos:
-            message = f"`{name}` does not honour `{_NAMES.get(item, item)}`"
+            message = f"`{name}` does not honour `{QOS_WORDS.get(item, item)}`"
             yield _Problem(codes.UNSUPPORTED_QOS, message)
 
 
@@ -217,7 +222,7 @@ def _reach_problems(
         yield _Problem(code, f"`{name}` has no services")
 
 
-def _required_items(qos: Qos, *, is_topic: bool) -> Iterator[str]:
+def required_qos(qos: Qos, *, is_topic: bool) -> Iterator[str]:
     """The items of `QOS_ITEMS` that a middleware must honour."""
     if qos.reliable and is_topic:
         yield "reliable"
@@ -241,12 +246,12 @@ def _check_topic_qos(connection: Connection, report: Report) -> None:
         )
     if connection.source_port.role.is_topic:
         return
-    for item in _TOPIC_ITEMS:
+    for item in QOS_WORDS:
         if getattr(qos, item):
             report.add(
                 codes.UNSUPPORTED_QOS,
                 connection.span,
-                f"`{_NAMES.get(item, item)}` is for topics; "
+                f"`{QOS_WORDS.get(item, item)}` is for topics; "
                 f"`{connection.source_port.interface.name}` is a service here",
                 help="remove it",
             )

@@ -160,7 +160,11 @@ def _port(
             notes=[Note(other.span, f"`{instance.name}` {other.role} `{other.name}`")],
         )
         return None
+    invalid = instance.component.invalid_ports
+    if tree.port.text in invalid:
+        return None
     known = [port.name for port in instance.component.ports if port.role in roles]
+    known += sorted(invalid)
     guess = nearest(tree.port.text, known)
     report.add(
         codes.UNKNOWN_PORT,

@@ -21,7 +21,7 @@ from robocomp_dsl.syntax.ast import ddsl as ast
 def resolve_groups(
     scope: DeploymentScope, known: Mapping[str, Instance], report: Report
 ) -> tuple[Group, ...]:
-    """All groups, outer ones first."""
+    """All groups, outer groups first."""
     return tuple(
         Group(
             inner.path,
@@ -54,6 +54,8 @@ def _port(name: str, tree: ast.Export, instance: Instance, report: Report) -> Po
     known = {inner.name: inner for inner in instance.component.ports}
     if name in known:
         return known[name]
+    if name in instance.component.invalid_ports:
+        return None
     guess = nearest(name, known)
     report.add(
         codes.UNKNOWN_PORT,

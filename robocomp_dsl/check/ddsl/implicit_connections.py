@@ -69,7 +69,7 @@ def implicit_connections(
 
 @dataclass(frozen=True, slots=True)
 class _Candidates:
-    """The servers of a required interface: visible ones and all; `first` as it is written."""
+    """The servers of a required interface: the visible servers, and all; `first` as written."""
 
     found: Sequence[End]
     all: Sequence[End]

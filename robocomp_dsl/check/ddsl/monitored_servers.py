@@ -1,4 +1,4 @@
-"""Rules for ports whose connections are told apart: those with monitors, and arbitrated ones.
+"""Rules for ports whose connections are told apart: those with monitors, and arbitrated ports.
 
 In: all connections of a deployment. Out: diagnostics.
 """

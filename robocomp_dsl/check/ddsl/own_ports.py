@@ -82,6 +82,8 @@ def _exists(name: Name, component: Component, report: Report) -> bool:
     names = [port.name for port in component.ports]
     if name.text in names:
         return True
+    if name.text in component.invalid_ports:
+        return False
     guess = nearest(name.text, names)
     report.add(
         deployment_codes.UNKNOWN_PORT,

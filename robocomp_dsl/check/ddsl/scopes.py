@@ -48,7 +48,7 @@ class DeploymentScope:
 
     @property
     def descendants(self) -> Iterator[DeploymentScope]:
-        """The scope and its nested scopes, outer ones first."""
+        """The scope and its nested scopes, outer scopes first."""
         yield self
         for nested in self.groups.values():
             yield from nested.descendants

@@ -53,4 +53,6 @@ def _parts(type_: types.Declaration | types.Primitive) -> list[types.Type]:
             return [type_.element]
         case types.Dictionary():
             return [type_.key, type_.value]
+        case types.Alias():
+            return [type_.target]
     return []

@@ -6,12 +6,15 @@ out; declarations that depend on them are left out without a further diagnostic.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from robocomp_dsl.check.codes import types as codes
+from robocomp_dsl.check.idsl.inheritance import with_inherited
 from robocomp_dsl.check.idsl.nesting import MAX_DEPTH, MAX_VALUES, Nesting
 from robocomp_dsl.check.idsl.patterns import infer_pattern, response_index
+from robocomp_dsl.check.idsl.ros_units import ROS_UNITS
+from robocomp_dsl.check.idsl.units import holds_number
 from robocomp_dsl.check.literals import OutOfRange, TypeMismatch, as_int, as_type
 from robocomp_dsl.check.names.duplicates import unique_by_name
 from robocomp_dsl.check.names.import_scope import ImportScope
@@ -20,8 +23,11 @@ from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.model import interface as model
 from robocomp_dsl.model import types
 from robocomp_dsl.record import Record
+from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast import idsl as ast
-from robocomp_dsl.syntax.ast.base import Literal, Node, QualifiedName
+from robocomp_dsl.syntax.ast.base import Literal, Node, QualifiedName, Unit
+
+NO_UNITS: Mapping[str, str] = {}
 
 
 class ResolvedModule(Record):
@@ -49,7 +55,7 @@ class _Resolver:
         self._written = {node.name.text: node for node in written}
         self._declared: dict[str, types.Declaration | None] = {}
         self._open: dict[str, QualifiedName | None] = {}
-        primitives = types.ROS_PRIMITIVES if tree.is_ros else types.PRIMITIVES
+        primitives = types.ROS_PRIMITIVES if tree.origin else types.PRIMITIVES
         self._names = TypeResolver(
             tree.name.text, self._written, self._own, visible, report, primitives
         )
@@ -64,7 +70,9 @@ class _Resolver:
             self._tree.name.span,
             self._tree.doc,
             self._scope.direct,
-            tuple(node for node in declarations if node is not None),
+            tuple(d for d in declarations if d is not None and not isinstance(d, types.Alias)),
+            tuple(d for d in declarations if isinstance(d, types.Alias)),
+            self._tree.origin,
         )
         return ResolvedModule(module, self._pairs)
 
@@ -96,30 +104,35 @@ class _Resolver:
         head = (self._tree.name.text, tree.name.text, tree.name.span, tree.doc)
         match tree:
             case ast.Struct():
-                fields = self._fields(tree.fields, tree.constants)
+                units = ROS_UNITS.get(tree.ros_name, {})
+                fields = self._fields(tree.fields, tree.constants, units)
                 return types.Struct(*head, fields, self._constants(tree.constants), tree.ros_name)
             case ast.ExceptionDecl():
                 return types.ExceptionType(*head, self._fields(tree.fields))
             case ast.Enum():
                 return types.Enum(*head, self._enumerators(tree.enumerators))
-            case ast.Sequence():
-                element = self._names.data(tree.element)
-                return types.Sequence(*head, element) if element else None
+            case ast.Interface():
+                return self._interface(tree, head)
             case ast.Dictionary():
                 key, value = self._names.data(tree.key), self._names.data(tree.value)
                 return types.Dictionary(*head, key, value) if key and value else None
-            case ast.Interface():
-                return model.Interface(*head, self._operations(tree.operations))
+            case ast.Sequence(element=inner) | ast.Alias(target=inner):
+                part = self._names.data(inner)
+                kind = types.Sequence if isinstance(tree, ast.Sequence) else types.Alias
+                return kind(*head, part) if part else None
 
     def _fields(
-        self, trees: Sequence[ast.Field], constants: Sequence[ast.Constant] = ()
+        self,
+        trees: Sequence[ast.Field],
+        constants: Sequence[ast.Constant] = (),
+        units: Mapping[str, str] = NO_UNITS,
     ) -> tuple[types.Field, ...]:
         members: tuple[ast.Field | ast.Constant, ...] = (*constants, *trees)
         unique = unique_by_name(members, "field", self._report)
-        fields = (self._field(node) for node in unique if isinstance(node, ast.Field))
+        fields = (self._field(node, units) for node in unique if isinstance(node, ast.Field))
         return tuple(node for node in fields if node is not None)
 
-    def _field(self, tree: ast.Field) -> types.Field | None:
+    def _field(self, tree: ast.Field, units: Mapping[str, str]) -> types.Field | None:
         element = self._names.data(tree.type)
         if element is None:
             return None
@@ -127,10 +140,10 @@ class _Resolver:
             element = element.replace(
                 name=f"{element.name}<={tree.string_bound}", bound=tree.string_bound
             )
-        unit = tree.unit.text if tree.unit else ""
         default = self._literal(tree.default, element, f"the default of `{tree.name.text}`")
         type_ = self._array(tree.array, element) if tree.array else element
         items = self._items(tree, element)
+        unit = self._unit(tree.unit, type_) or units.get(tree.name.text, "")
         field = types.Field(tree.name.text, type_, tree.name.span, default, unit, tree.doc, items)
         self._pairs.append((tree, field))
         return field
@@ -210,6 +223,17 @@ class _Resolver:
             )
             return following
 
+    def _interface(
+        self, tree: ast.Interface, head: tuple[str, str, Span, str]
+    ) -> model.Interface | None:
+        style = "thrift" if self._tree.origin == "thrift" else ""
+        base = self._names.interface(tree.base) if tree.base else None
+        if tree.base and base is None:
+            return None
+        own = self._operations(tree.operations)
+        operations = with_inherited(base, own, self._report) if base else own
+        return model.Interface(*head, operations, style, base)
+
     def _operations(self, trees: Sequence[ast.Operation]) -> tuple[model.Operation, ...]:
         return tuple(
             self._operation(node) for node in unique_by_name(trees, "operation", self._report)
@@ -242,17 +266,28 @@ class _Resolver:
 
     def _param(self, tree: ast.Param) -> model.Param | None:
         type_ = self._names.data(tree.type)
-        unit = tree.unit.text if tree.unit else ""
-        return model.Param(tree.name.text, type_, tree.name.span, unit) if type_ else None
+        if type_ is None:
+            return None
+        default = self._literal(tree.default, type_, f"the default of `{tree.name.text}`")
+        unit = self._unit(tree.unit, type_)
+        return model.Param(tree.name.text, type_, tree.name.span, unit, default)
+
+    def _unit(self, tree: Unit | None, type_: types.Type) -> str:
+        """The unit; the comment of an imported definition may mention one of something else."""
+        if tree is None or (self._tree.origin and not holds_number(type_)):
+            return ""
+        return tree.text
 
     def _report_recursion(self, name: str, use: QualifiedName | None) -> None:
         chain = [*self._open][[*self._open].index(name) :]
         shown = " → ".join(f"`{node}`" for node in (*chain, name))
         uses = [self._open[node] for node in chain[1:]]
+        is_interface = isinstance(self._written[name], ast.Interface)
+        advice = "store the elements in one sequence, and refer to them by index"
         self._report.add(
             codes.RECURSIVE_TYPE,
             use.span if use else self._written[name].name.span,
-            f"`{name}` contains itself: {shown}",
+            f"`{name}` {'extends' if is_interface else 'contains'} itself: {shown}",
             notes=[Note(node.span, f"`{node.text}` is used here") for node in uses if node],
-            help="store the elements in one sequence, and refer to them by index",
+            help="remove one `extends`" if is_interface else advice,
         )

@@ -8,7 +8,7 @@ from __future__ import annotations
 from robocomp_dsl.check.codes import types as codes
 from robocomp_dsl.check.idsl.patterns import is_response
 from robocomp_dsl.check.idsl.resolve import ResolvedModule
-from robocomp_dsl.check.idsl.units import check_unit
+from robocomp_dsl.check.idsl.units import check_unit, holds_number
 from robocomp_dsl.diagnostics import Edit, Fix, Note, Report
 from robocomp_dsl.model import types
 from robocomp_dsl.model.interface import Interface, Operation, Pattern
@@ -25,8 +25,8 @@ def check_idsl_rules(resolved: ResolvedModule, report: Report) -> None:
             case ast.Dictionary(), types.Dictionary():
                 _check_key(tree, resolved_node, report)
             case ast.Field(), types.Field():
-                if tree.unit:
-                    is_number = _holds_number(resolved_node.type)
+                if tree.unit and resolved_node.unit:
+                    is_number = holds_number(resolved_node.type)
                     check_unit(tree.unit, f"`{resolved_node.name}`", report, is_number=is_number)
             case ast.Operation(), Operation():
                 _check_operation(tree, resolved_node, report)
@@ -70,24 +70,13 @@ def _is_key(type_: types.Type) -> bool:
     return False
 
 
-def _holds_number(type_: types.Type) -> bool:
-    match type_:
-        case types.Primitive():
-            return type_ in types.NUMBERS
-        case types.Enum():
-            return False
-        case types.Sequence():
-            return _holds_number(type_.element)
-    return True
-
-
 def _check_operation(tree: ast.Operation, operation: Operation, report: Report) -> None:
     for written in tree.params:
         param = next(
             (p for p in operation.inputs + operation.outputs if p.name == written.name.text), None
         )
-        if written.unit and param:
-            is_number = _holds_number(param.type)
+        if written.unit and param and param.unit:
+            is_number = holds_number(param.type)
             check_unit(written.unit, f"`{param.name}`", report, is_number=is_number)
     if operation.pattern in (Pattern.COMMAND, Pattern.PUBLISH):
         _check_one_way(tree, operation, report)

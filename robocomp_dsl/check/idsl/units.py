@@ -10,6 +10,7 @@ import re
 
 from robocomp_dsl.check.codes import types as codes
 from robocomp_dsl.diagnostics import Edit, Fix, Report
+from robocomp_dsl.model import types
 from robocomp_dsl.syntax.ast.base import Unit
 
 KNOWN = frozenset(
@@ -19,6 +20,18 @@ KNOWN = frozenset(
 )
 _BY_LETTERS = {unit.lower(): unit for unit in sorted(KNOWN)}
 _WORD = re.compile(r"[A-Za-z]+")
+
+
+def holds_number(type_: types.Type) -> bool:
+    """Whether a value of this type can have a unit; that of a struct applies to its numbers."""
+    match type_:
+        case types.Primitive():
+            return type_ in types.NUMBERS
+        case types.Enum():
+            return False
+        case types.Sequence():
+            return holds_number(type_.element)
+    return True
 
 
 def check_unit(unit: Unit, what: str, report: Report, *, is_number: bool) -> None:

@@ -20,7 +20,7 @@ from robocomp_dsl.model.types import Declaration
 from robocomp_dsl.syntax.ast.base import QualifiedName
 
 Kind = TypeVar("Kind", bound=Declaration)
-_DECLARED = re.compile(r"\b(?:struct|enum|exception|interface)\s+(\w+)|>\s*(\w+)\s*;")
+_DECLARED = re.compile(r"\b(?:struct|enum|exception|interface|union|service)\s+(\w+)|>\s*(\w+)\s*;")
 
 
 class Tree(Protocol):
@@ -60,7 +60,7 @@ class ImportScope:
         self._missing_packages = {w.partition("/")[0] for w in missing if is_ros_import(w)}
 
     def lookup(self, name: QualifiedName, kind: type[Kind]) -> list[Kind]:
-        """The declarations called `name`; direct imports shadow indirect ones."""
+        """The declarations called `name`; direct imports shadow indirect imports."""
         module = name.module.text if name.module else None
         found = [
             (imported, declaration)
@@ -76,7 +76,7 @@ class ImportScope:
     def _by_name(self) -> dict[str, list[tuple[Module, Declaration]]]:
         by_name: dict[str, list[tuple[Module, Declaration]]] = {}
         for imported in self._modules:
-            for declaration in imported.declarations:
+            for declaration in (*imported.declarations, *imported.aliases):
                 by_name.setdefault(declaration.name, []).append((imported, declaration))
         return by_name
 

@@ -16,6 +16,7 @@ from robocomp_dsl.diagnostics import Edit, Fix
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.source import Source, UnreadableSource
 from robocomp_dsl.syntax.ast.base import Import, QualifiedName
+from robocomp_dsl.syntax.definitions import YARP_SUFFIXES
 from robocomp_dsl.syntax.parse import parse_idsl
 from robocomp_dsl.syntax.ros.kinds import ROS_PARTS
 
@@ -52,7 +53,9 @@ def suggest_import(
     seen = search.files_mentioning(name.name.text, source.path)
     found = [path for path in seen if path != source.path and _declares(path, name, files)]
     if not found:
-        return _suggest_ros(name, source, imports, search)
+        return _suggest_ros(name, source, imports, search) or _suggest_yarp(
+            name, source, imports, search
+        )
     fix = add_import(found[0].name, source, imports) if len(found) == 1 else None
     return ImportSuggestion(tuple(found), fix)
 
@@ -70,6 +73,19 @@ def _suggest_ros(
         path = search.ros.find(written, source.path, source.path) if plain else None
         if path is not None:
             return ImportSuggestion((path,), add_import(written, source, imports))
+    return None
+
+
+def _suggest_yarp(
+    name: QualifiedName, source: Source, imports: Sequence[Import], search: ImportResolver
+) -> ImportSuggestion | None:
+    """The YARP definition of `motor::Status`: the file with the name of the module."""
+    written = {statement.path.value for statement in imports}
+    for suffix in YARP_SUFFIXES if name.module else ():
+        file = f"{name.module.text}{suffix}" if name.module else ""
+        path = search.yarp.find(file, source.path, source.path)
+        if path is not None and file not in written:
+            return ImportSuggestion((path,), add_import(file, source, imports))
     return None
 
 

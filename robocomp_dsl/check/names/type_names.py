@@ -67,7 +67,9 @@ class TypeResolver:
         """The data type called `name`."""
         if name.module is None and name.name.text in self._primitives:
             return self._primitives[name.name.text]
-        found = self._declaration(name, _DATA)
+        found = self._declaration(name, (*_DATA, types.Alias))
+        if isinstance(found, types.Alias):
+            return found.target
         if isinstance(found, _DATA):
             return found
         if found is not None:
@@ -87,6 +89,14 @@ class TypeResolver:
         if isinstance(found, types.ExceptionType) or found is None:
             return found
         self._report_kind(name, found, "an exception", codes.NOT_AN_EXCEPTION)
+        return None
+
+    def interface(self, name: QualifiedName) -> Interface | None:
+        """The interface called `name`."""
+        found = self._declaration(name, (Interface,))
+        if isinstance(found, Interface) or found is None:
+            return found
+        self._report_kind(name, found, "an interface", codes.NOT_A_TYPE)
         return None
 
     def _declaration(

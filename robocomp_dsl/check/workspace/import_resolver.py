@@ -14,6 +14,7 @@ from pathlib import Path
 
 from robocomp_dsl.check.workspace.ros_definitions import RosDefinitions
 from robocomp_dsl.check.workspace.source_cache import SourceCache
+from robocomp_dsl.check.workspace.yarp_definitions import YarpDefinitions
 from robocomp_dsl.diagnostics import nearest
 from robocomp_dsl.source import Source, UnreadableSource
 
@@ -40,6 +41,7 @@ class ImportResolver:
         named = (*folders, *listed)
         self._everywhere = (*named, shipped)
         self.ros = RosDefinitions(files, named, environ, shipped)
+        self.yarp = YarpDefinitions(files, self._everywhere)
         self._declared: dict[Path, tuple[Source, frozenset[str]]] = {}
         self._importable: tuple[Path, list[Path]] | None = None
 

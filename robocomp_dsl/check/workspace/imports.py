@@ -15,6 +15,7 @@ from robocomp_dsl.check.workspace.ros_imports import (
     report_definition_in_component,
     report_missing_definition,
 )
+from robocomp_dsl.check.workspace.yarp_definitions import declares_types_only, is_yarp_import
 from robocomp_dsl.diagnostics import Edit, Fix, Note, Report
 from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast.base import Import
@@ -31,6 +32,8 @@ def locate_import(statement: Import, root: Path, search: ImportResolver) -> Path
     written = statement.path.value
     if is_ros_import(written):
         return search.ros.find(written, statement.path.span.source.path, root)
+    if is_yarp_import(written):
+        return search.yarp.find(written, statement.path.span.source.path, root)
     name = _idsl_name(base_name(statement.path.value))
     return search.find(name, root) if name.lower().endswith(SUFFIX) else None
 
@@ -41,11 +44,15 @@ def find_import(
     """As `locate`; a missing file is reported."""
     found = locate_import(statement, root, search)
     name = base_name(statement.path.value)
-    if is_ros_import(name):
-        if statement.span.source.path.suffix.lower() == _COMPONENT:
-            report_definition_in_component(statement, report)
-        elif found is None:
+    is_component = statement.span.source.path.suffix.lower() == _COMPONENT
+    if is_component and (is_ros_import(name) or declares_types_only(name)):
+        report_definition_in_component(statement, report)
+    elif is_ros_import(name):
+        if found is None:
             report_missing_definition(statement, root, search, report)
+    elif is_yarp_import(name):
+        if found is None:
+            search.yarp.report_missing(statement, root, report)
     elif found is None:
         if name.lower().endswith(SUFFIX):
             _report_missing(name, statement, root, search, report)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class KnownMiddlewares:
-    """The middlewares of the registry; `further` ones are known in addition."""
+    """The middlewares of the registry; `further` middlewares are known, too."""
 
     def __init__(self, further: Sequence[MiddlewareDescription] = ()) -> None:
         self._further = {description.name: description for description in further}

@@ -22,13 +22,12 @@ from robocomp_dsl.check.workspace.imports import (
     report_duplicate_imports,
 )
 from robocomp_dsl.check.workspace.loaded import LoadedModule, ResolvedImport
-from robocomp_dsl.check.workspace.ros_definitions import is_ros_import
 from robocomp_dsl.check.workspace.source_cache import Parsed, SourceCache, canonical_path
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.interface import Module
 from robocomp_dsl.source import UnreadableSource
 from robocomp_dsl.syntax.ast.base import Import, QualifiedName
-from robocomp_dsl.syntax.parse import parse_idsl, parse_ros
+from robocomp_dsl.syntax.parse import DEFINITIONS, parse_idsl
 
 MAX_DEPTH = 50
 """Maximum depth of nested imports; more would exhaust the stack."""
@@ -113,8 +112,7 @@ class ModuleLoader:
         return True
 
     def _resolve(self, path: Path) -> LoadedModule:
-        is_ros = is_ros_import(path.name)
-        parsed = self._files.parse(path, parse_ros if is_ros else parse_idsl)
+        parsed = self._files.parse(path, DEFINITIONS.get(path.suffix.lower(), parse_idsl))
         report = Report()
         report.extend(parsed.diagnostics)
         links = tuple(self.resolve_imports(parsed.tree.imports, report))

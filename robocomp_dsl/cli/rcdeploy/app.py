@@ -45,7 +45,7 @@ def check(
     """Check a deployment: first the text and its imports, then the requirements on this machine.
 
     With `group` only that group is checked; raises `click.BadParameter` for an unknown one. Without
-    `domain` the plan has the domain of the deployment if it runs, otherwise a new one.
+    `domain` the plan has the domain of the deployment if it runs, otherwise a new domain.
     """
     from robocomp_dsl.check.passes import check_ddsl  # noqa: PLC0415 - `rcdeploy status` needs no parser
     from robocomp_dsl.check.workspace.workspace import Workspace  # noqa: PLC0415

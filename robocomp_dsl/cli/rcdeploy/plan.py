@@ -16,7 +16,7 @@ from robocomp_dsl.cli.output.render import strip_control_chars
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import app as rcdeploy_app
 from robocomp_dsl.deploy.external_connection import describe_connection
-from robocomp_dsl.deploy.plan import ExternalProgram, Plan, Process, batches
+from robocomp_dsl.deploy.plan import Plan, Process, batches
 from robocomp_dsl.deploy.plan_text import format_limits, format_readiness
 from robocomp_dsl.model.deployment import ExternalConnection
 
@@ -28,7 +28,7 @@ from robocomp_dsl.model.deployment import ExternalConnection
 @click.option(
     "--name", metavar="NAME", help="Name of the running deployment; default: its name in the file."
 )
-@click.option("--domain", metavar="NAME", help="Communication domain; default: a new one.")
+@click.option("--domain", metavar="NAME", help="Communication domain; default: a new domain.")
 @click.option("--format", "output_format", type=click.Choice(["text", "json"]), default="text")
 def command(
     app: Path,
@@ -64,7 +64,7 @@ def as_data(plan: Plan) -> dict[str, Any]:
         "middlewares": list(plan.middlewares),
         "clock": plan.clock,
         "processes": [_process(process) for process in plan.processes],
-        "externals": [_external(program) for program in plan.externals],
+        "externals": [program.as_dict() for program in plan.externals],
         "external_connections": [_connection(each) for each in plan.external_connections],
         "stop": plan.shutdown_batches(),
     }
@@ -76,17 +76,6 @@ def _connection(connection: ExternalConnection) -> dict[str, str]:
         "source": connection.source,
         "target": connection.target,
         "carrier": connection.carrier,
-    }
-
-
-def _external(program: ExternalProgram) -> dict[str, Any]:
-    return {
-        "name": program.name,
-        "middleware": program.middleware,
-        "address": program.address,
-        "role": program.role,
-        "interface": program.interface,
-        "users": list(program.users),
     }
 
 
@@ -124,11 +113,8 @@ def as_text(plan: Plan) -> Iterator[str]:
             yield ""
             yield from _described(process, wave)
     for program in plan.externals:
-        yield ""
-        yield f"external {program.name}: {program.role} {program.interface}"
-        at = f' at "{program.address}"' if program.address else ""
-        users = f", used by {', '.join(program.users)}" if program.users else ""
-        yield f"   over {program.middleware}{at}{users}"
+        port, connected = program.format()
+        yield from ("", port, f"   {connected}")
     if plan.external_connections:
         yield ""
         yield "connections that rcdeploy makes and keeps:"

@@ -48,6 +48,15 @@ def is_deployment(word: str) -> bool:
         raise CliError(EXIT_FINDINGS, str(error)) from None
 
 
+def is_running(word: str) -> bool:
+    """Whether `word` is the name of a running deployment, and not also of its components."""
+    try:
+        found = [deployment for deployment in instances.running() if deployment.name == word]
+    except instances.Unavailable as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
+    return bool(found) and word not in components(found[0])
+
+
 def _selection_problem(
     which: str | None,
     matches: list[instances.RunningDeployment],

@@ -1,4 +1,4 @@
-"""`rcdeploy status`: shows a deployment's components. In: a running one. Out: a table or JSON.
+"""`rcdeploy status`: shows a deployment's components. Out: a table or JSON.
 
 The supervisor knows the processes; lifecycles and state machines are queried from the components.
 """
@@ -19,6 +19,7 @@ from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import running
 from robocomp_dsl.deploy import control, instances, status
 from robocomp_dsl.deploy.external_connection import ConnectionStatus, format_connections
+from robocomp_dsl.deploy.external_program import ExternalProgram
 
 if TYPE_CHECKING:
     from robocomp_dsl.deploy.component_queries import ComponentState
@@ -53,20 +54,25 @@ def command(which: str | None, output_format: str) -> None:
 class DeploymentReport:
     """The status of one deployment; `clock` is None without a simulated clock.
 
-    `connections` are those between external programs.
+    `connections` are those between external programs. rcdeploy starts no external program, so it
+    knows no state of it.
     """
 
     deployment: instances.RunningDeployment
     rows: list[status.ProcessStatus]
     clock: dict[str, Any] | None
+    externals: list[ExternalProgram]
     connections: list[ConnectionStatus]
 
     def as_data(self) -> dict[str, Any]:
         """For JSON."""
-        components = [row.as_dict() for row in self.rows]
-        links = [connection.as_dict() for connection in self.connections]
-        data = {"components": components, "clock": self.clock, "connections": links}
-        return asdict(self.deployment) | data
+        return {
+            **asdict(self.deployment),
+            "components": [row.as_dict() for row in self.rows],
+            "clock": self.clock,
+            "externals": [program.as_dict() for program in self.externals],
+            "connections": [connection.as_dict() for connection in self.connections],
+        }
 
     def as_text(self, width: int, *, colours: bool) -> list[str]:
         """A heading and a table."""
@@ -76,6 +82,7 @@ class DeploymentReport:
         lines = [f"{deployment.name}: {deployment.path}, {process}"]
         lines += [status.SimulatedTime(**self.clock).format()] if self.clock else []
         lines += status.format_table(self.rows, width, colours=colours)
+        lines += [" ".join(program.format()) for program in self.externals]
         lines += ["", *format_connections(self.connections)] if self.connections else []
         return lines + status.format_hangs(self.rows, time.time())
 
@@ -88,9 +95,10 @@ def _report(deployment: instances.RunningDeployment) -> DeploymentReport:
             EXIT_FINDINGS, f"`{deployment.name}` does not answer; it may be ending"
         ) from None
     rows = [status.ProcessStatus.from_dict(row) for row in answer["rows"]]
+    externals = [ExternalProgram.from_dict(fields) for fields in answer.get("externals", ())]
     links = [ConnectionStatus(**link) for link in answer.get("connections", ())]
     rows = _with_component_state(deployment, rows)
-    return DeploymentReport(deployment, rows, answer["clock"], links)
+    return DeploymentReport(deployment, rows, answer["clock"], externals, links)
 
 
 def _with_component_state(

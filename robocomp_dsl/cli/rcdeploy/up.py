@@ -36,7 +36,7 @@ MEGABYTE = 1_000_000
 @click.option(
     "--name", metavar="NAME", help="Name of the running deployment; default: its name in the file."
 )
-@click.option("--domain", metavar="NAME", help="Communication domain; default: a new one.")
+@click.option("--domain", metavar="NAME", help="Communication domain; default: a new domain.")
 @click.option(
     "--duration",
     type=click.FloatRange(min=0),

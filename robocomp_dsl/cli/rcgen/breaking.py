@@ -26,11 +26,11 @@ from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcgen.breaking_deployments import check_deployment
 from robocomp_dsl.diagnostics import Diagnostic, Report, Severity
 from robocomp_dsl.source import Source, Span
-from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
+from robocomp_dsl.syntax.definitions import DEFINITION_SUFFIXES
 
 SUFFIXES = (".idsl", ".cdsl", ".pdsl")
 DEPLOYMENTS = ".ddsl"
-_NAMED = (".smdsl", ".scxml", ".yaml", ".yml", ".toml", *ROS_SUFFIXES)
+_NAMED = (".smdsl", ".scxml", ".yaml", ".yml", ".toml", *DEFINITION_SUFFIXES)
 ARCHIVED_SUFFIXES = (*SUFFIXES, DEPLOYMENTS, *_NAMED)
 """The files extracted from an archive: descriptions, and the files that they name."""
 GIT_TIMEOUT_S = 60.0

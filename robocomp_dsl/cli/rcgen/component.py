@@ -99,7 +99,7 @@ def command(
     `main.py` and `NAME_generated/` are rewritten each time; `specificworker.py`, `README.md` and
     `etc/config.yaml` are written once and then belong to you. Either all files are written or none.
     """
-    mode = _selected_mode(modes)
+    mode = selected_mode(modes)
     report = Report()
     component = _component(file, language or "", Workspace(folders), report)
     chosen = {"language": language or "", "middleware": middleware or ""}
@@ -111,12 +111,12 @@ def command(
     if component is None:
         raise CliError(EXIT_FINDINGS)
     try:
-        _run_mode(mode, folder, files, quiet)
+        run_mode(mode, folder, files, quiet)
     except CannotWrite as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None
 
 
-def _selected_mode(modes: dict[str, bool]) -> str:
+def selected_mode(modes: dict[str, bool]) -> str:
     """The requested one, or None."""
     asked = [name for name, on in modes.items() if on]
     if len(asked) > 1:
@@ -150,7 +150,7 @@ def _update_user_files(
     return update_user_files(folder, component, files, report, writes=writes)
 
 
-def _run_mode(mode: str, folder: Path, files: list[OutputFile], quiet: bool) -> None:
+def run_mode(mode: str, folder: Path, files: list[OutputFile], quiet: bool) -> None:
     """Write or compare the files, as `mode` says. Raises `CliError` if --check finds changes."""
     if not mode:
         changes = write(folder, files)
@@ -186,7 +186,7 @@ def _summary(folder: Path, changes: list[Change]) -> str:
         return f"{folder}: nothing to do, all {len(changes)} files are up to date"
     yours = [c.file.path for c in changes if c.file.write_once and c.action is FileAction.CREATE]
     begun = f"; yours to edit: {', '.join(yours)}" if yours else ""
-    gone = f"; {removed} old ones removed" if removed else ""
+    gone = f"; {removed} old files removed" if removed else ""
     return f"{folder}: {written} of {len(changes)} files written{gone}{begun}"
 
 

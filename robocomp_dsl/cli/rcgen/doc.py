@@ -23,7 +23,15 @@ if TYPE_CHECKING:
     from robocomp_dsl.generate.output import OutputFile
 
 FORMATS = {"html": ("html",), "markdown": ("markdown",), "both": ("html", "markdown")}
-FOLDERS = ("components", "deployments", "interfaces", "modules", "parameters", "statemachines")
+FOLDERS = (
+    "bridges",
+    "components",
+    "deployments",
+    "interfaces",
+    "modules",
+    "parameters",
+    "statemachines",
+)
 """Folder of the other pages, beside the first one."""
 MARK_BYTES = 1000
 """The mark of generated files is within this number of bytes."""

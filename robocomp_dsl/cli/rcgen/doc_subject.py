@@ -15,12 +15,13 @@ from robocomp_dsl.generate.doc.subject import (
     natural_sort_key,
     transitive_modules,
 )
+from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.deployment import Deployment
 from robocomp_dsl.model.parameter import ParameterSet
 from robocomp_dsl.model.statemachine import StateMachine
 
-_Noun = TypeVar("_Noun", Component, Deployment, ParameterSet, StateMachine)
+_Noun = TypeVar("_Noun", Bridge, Component, Deployment, ParameterSet, StateMachine)
 
 
 def read_subject(
@@ -45,6 +46,9 @@ def read_subject(
     named |= {canonical_path(model.path) for model in machines if model}
     modules = [m for model in models if isinstance(model, tuple) for m in model]
     modules += [m for model in seen for m in model.modules]
+    bridges = _unique(model for model in models if isinstance(model, Bridge))
+    modules += [m for bridge in bridges for m in bridge.modules]
+    modules += [bridge.types for bridge in bridges if bridge.types]
     alone = [model for model in models if isinstance(model, ParameterSet | StateMachine)]
     alone = [model for model in alone if canonical_path(model.path) not in named]
     return DocumentationSubject(
@@ -54,6 +58,7 @@ def read_subject(
         deployments=deployments,
         parameters=_unique(model for model in alone if isinstance(model, ParameterSet)),
         machines=_unique(model for model in alone if isinstance(model, StateMachine)),
+        bridges=bridges,
         canonical_components={id(model): by_file[canonical_path(model.path)] for model in seen},
     )
 

@@ -9,6 +9,10 @@ from robocomp_dsl.cli.program import LazyGroup, run
 
 TABLE = {
     "component": ("rcgen.component", "Generate a component from its CDSL file."),
+    "bridge": (
+        "rcgen.bridge",
+        "Generate a bridge between middlewares from its BDSL file.",
+    ),
     "interface": (
         "rcgen.interface",
         "Export an interface as Slice, ROS 2 messages or JSON Schema.",

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     nargs=-1,
     required=True,
     type=click.Path(exists=True, readable=False, path_type=Path),
-    metavar="DIR|FILE.xml…",
+    metavar="DIR|FILE…",
 )
 @click.option(
     "-o",
@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     metavar="TAG",
     help="Include the parts of a YARP robot that are `enabled_by` TAG, or `all`; repeatable.",
 )
+@options.topic_types
 @click.option("-q", "quiet", is_flag=True, help="Print findings only.")
 @options.output_format
 @options.folders
@@ -56,19 +57,22 @@ def command(
     quiet: bool,
     output_format: str,
     folders: tuple[Path, ...],
+    topic_types: tuple[str, ...],
 ) -> None:
-    """Migrate components and deployments of RoboComp, and XML files of YARP.
+    """Migrate components and deployments of RoboComp, and files of YARP.
 
     DIR is the folder of a component: its CDSL, etc/config (text or TOML), src/specificworker.py.
     FILE.xml is a file of rcmanager (or sub.toml; name the folders of its components, too), an
-    application of yarpmanager, or a robot of yarprobotinterface. The old files are never changed.
-    MIGRATION.md lists what was migrated, and what was not.
+    application of yarpmanager, or a robot of yarprobotinterface; FILE.ini is a configuration of
+    yarp-bottle-generator. The old files are never changed. MIGRATION.md lists what was migrated,
+    and what was not.
 
     The exit code is 0 if everything was carried over, 1 if something was not.
     """
     out = output or _default_output(inputs[0])
     _validate_output(inputs, out)
-    _migrate(inputs, out, folders, tags, output_format, quiet)
+    types = options.parse_topic_types(topic_types)
+    _migrate(inputs, out, folders, tags, types, output_format, quiet)
 
 
 def _default_output(first: Path) -> Path:
@@ -94,12 +98,13 @@ def _migrate(
     out: Path,
     folders: tuple[Path, ...],
     tags: tuple[str, ...],
+    topic_types: dict[str, str],
     output_format: str,
     quiet: bool,
 ) -> None:
     from robocomp_dsl.generate.write import CannotWrite, write  # noqa: PLC0415 - not for --help
     from robocomp_dsl.migrate.finish import (  # noqa: PLC0415
-        check_migrated_deployment,
+        check_migrated_files,
         generate_components,
         migration_report,
     )
@@ -107,7 +112,7 @@ def _migrate(
 
     report = Report()
     try:
-        plan = plan_migration(inputs, out, folders, report, tags)
+        plan = plan_migration(inputs, out, folders, report, tags, topic_types)
         if plan.files:
             write(out, plan.files)
             for place, files in generate_components(plan, out, folders, report):
@@ -115,7 +120,7 @@ def _migrate(
             for world in plan.worlds:
                 folder = out / f"{Path(world).stem}_simulator"
                 write(folder, _simulator(out / world, folder, folders, report))
-            check_migrated_deployment(plan, out, folders, report)
+            check_migrated_files(plan, out, folders, report)
             write(out, [migration_report(plan, report, _path_formatter(inputs, out))])
     except CannotWrite as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None

@@ -50,7 +50,7 @@ class ReaperProcess:
                     await asyncio.sleep(RESTART_DELAY_S)
             log(
                 f"the reaper (pid {old}), which ends the components if rcdeploy is killed, died "
-                f"({describe_exit(code)}); started a new one (pid {self.pid})",
+                f"({describe_exit(code)}); started another reaper (pid {self.pid})",
                 "WARNING",
             )
             await asyncio.sleep(RESTART_DELAY_S)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from robocomp_dsl.generate.doc.bridge_page import bridge_page
 from robocomp_dsl.generate.doc.component_page import (
     component_page,
     machine_page,
@@ -58,6 +59,7 @@ def _pages(site: DocumentationSite) -> Iterator[DocumentationPage]:
     subject = site.subject
     yield index_page(site)
     yield from (deployment_page(deployment, site) for deployment in subject.deployments)
+    yield from (bridge_page(bridge, site) for bridge in subject.bridges)
     yield from (component_page(component, site) for component in subject.components)
     pairs = [(interface, module) for module in site.modules for interface in module.interfaces]
     pairs.sort(key=lambda pair: (natural_sort_key(pair[0].name), pair[1].name))

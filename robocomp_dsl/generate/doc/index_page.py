@@ -47,6 +47,11 @@ def _blocks(site: DocumentationSite) -> Iterator[Block]:
     yield from _section("Deployments", ("deployment", "instances", "what it is"), deployments)
     if len(subject.deployments) in range(1, MAX_GRAPHS + 1):
         yield from (deployment_figure(deployment, site) for deployment in subject.deployments)
+    bridges = [
+        TableRow((site.link(b), inline_code(b.path.name), first_sentence(b.doc)))
+        for b in subject.bridges
+    ]
+    yield from _section("Bridges", ("bridge", "file", "what it is"), bridges)
     components = [TableRow(_component(component, site)) for component in subject.components]
     yield from _section("Components", ("component", "language", "ports", "what it is"), components)
     fitting = None if deployments else compatibility_figure(site)
@@ -71,7 +76,7 @@ def _blocks(site: DocumentationSite) -> Iterator[Block]:
         for m in subject.machines
     ]
     yield from _section("State machines", ("state machine", "file", "what it is"), machines)
-    if not (deployments or components or pairs or modules or sets or machines):
+    if not (deployments or bridges or components or pairs or modules or sets or machines):
         yield from parse_prose("There is nothing here to document.")
 
 

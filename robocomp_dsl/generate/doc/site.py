@@ -14,6 +14,7 @@ from typing import TypeAlias
 from robocomp_dsl.generate.doc.nodes import InlineCode, Inlines
 from robocomp_dsl.generate.doc.subject import DocumentationSubject
 from robocomp_dsl.generate.doc.target import Target
+from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.deployment import Deployment
 from robocomp_dsl.model.interface import Interface, Module
@@ -23,7 +24,7 @@ from robocomp_dsl.model.types import Declaration, Primitive, Sequence, Type
 
 MAX_NAME_LENGTH = 80
 
-PagedModel: TypeAlias = Component | Deployment | ParameterSet | StateMachine
+PagedModel: TypeAlias = Bridge | Component | Deployment | ParameterSet | StateMachine
 
 
 class AnchorNames:
@@ -99,6 +100,7 @@ def build_site(subject: DocumentationSubject) -> DocumentationSite:
     _assign_pages(pages, "components", subject.components)
     pages |= {copy: pages[id(model)] for copy, model in subject.canonical_components.items()}
     _assign_pages(pages, "deployments", subject.deployments)
+    _assign_pages(pages, "bridges", subject.bridges)
     _assign_pages(pages, "parameters", subject.parameters)
     _assign_pages(pages, "statemachines", subject.machines)
     first: dict[tuple[str, str, int], Module] = {}

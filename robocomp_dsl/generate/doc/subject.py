@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
+from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.deployment import Deployment
 from robocomp_dsl.model.interface import Module
@@ -31,6 +32,7 @@ class DocumentationSubject:
     deployments: tuple[Deployment, ...] = ()
     parameters: tuple[ParameterSet, ...] = ()
     machines: tuple[StateMachine, ...] = ()
+    bridges: tuple[Bridge, ...] = ()
     canonical_components: Mapping[int, Component] = field(default_factory=dict)
 
 

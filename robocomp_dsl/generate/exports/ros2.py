@@ -2,9 +2,9 @@
 
 In: modules. Out: `<package>/msg/*.msg`, `<package>/srv/*.srv`, `package.xml`, `CMakeLists.txt` and
 a `README.md` that lists the type of each operation. Every type gives a message. An operation that
-is called gives a service `<Interface><Operation>`; one that may be published is a topic, of its
-only struct or of a message of its own. Declared exceptions come back as `ok`, `error` (the name of
-the exception) and a member with its fields.
+is called gives a service `<Interface><Operation>`; an operation that may be published is a topic,
+of its only struct or of a message of its own. Declared exceptions come back as `ok`, `error` (the
+name of the exception) and a member with its fields.
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ def component_files(component: Component, middleware: str) -> list[OutputFile]:
     package = py_names.package
     parameter_list = component.parameters.parameters if component.parameters else ()
     config = list(params.config_lines(parameter_list))
-    rows = [_row(p) for p in parameter_list]
+    rows = [parameter_row(p, p.name) for p in parameter_list]
     schema = config_schema(code.title, component.doc, parameter_list)
     texts = documentation(py_names.interfaces, py_names.types)
     return [
@@ -53,12 +53,12 @@ def component_files(component: Component, middleware: str) -> list[OutputFile]:
     ]
 
 
-def _row(parameter: Parameter) -> tuple[str, str, str, str]:
-    """One row of the parameter table in the README."""
+def parameter_row(parameter: Parameter, name: str) -> tuple[str, str, str, str]:
+    """One row of the parameter table in the README; `name` is its full name."""
     default = "" if parameter.default is None else literals.yaml_value(parameter.default)
     about = (params.takes(parameter), literals.sentence(parameter.doc))
     takes, what = map(literals.markdown_cell, about)
-    return literals.markdown_cell(parameter.name), literals.markdown_code(default), takes, what
+    return literals.markdown_cell(name), literals.markdown_code(default), takes, what
 
 
 def _file(

@@ -32,14 +32,19 @@ class OperationCode(ValueRecord):
     outputs: str
     throws: str
     idempotent: str
+    input_defaults: str
 
 
 class InterfaceCode(ValueRecord):
-    """One interface; `proxy` is empty if the component only serves it."""
+    """One interface; `proxy` is empty if the component only serves it.
+
+    `style` is a Python expression, or empty.
+    """
 
     constant: str
     qualified: str
     operations: tuple[OperationCode, ...]
+    style: str = ""
     proxy: str = ""
     doc: str = ""
     methods: tuple[MethodCode, ...] = ()
@@ -52,13 +57,15 @@ def interface_code(
     """The spec of an interface, and a proxy if one of `ports` calls or publishes."""
     operations = tuple(_operation(o, types) for o in interface.operations)
     qualified = literals.quoted(interface.qualified)
+    style = literals.quoted(interface.style) if interface.style else ""
     outgoing = [p for p in ports if p.role in (Role.REQUIRES, Role.PUBLISHES)]
     if not outgoing:
-        return InterfaceCode(interface_names.constant, qualified, operations)
+        return InterfaceCode(interface_names.constant, qualified, operations, style)
     return InterfaceCode(
         interface_names.constant,
         qualified,
         operations,
+        style,
         interface_names.proxy,
         literals.docstring(interface.doc, INNER, f"Calls {interface.qualified}."),
         tuple(method_code(o, interface_names, types) for o in interface.operations),
@@ -76,7 +83,17 @@ def _operation(operation: Operation, types: PythonTypes) -> OperationCode:
         _fields(operation.outputs, types),
         f"({', '.join(throws)}{',' if len(throws) == 1 else ''})" if throws else "",
         "True" if operation.idempotent else "",
+        _defaults(operation, types),
     )
+
+
+def _defaults(operation: Operation, types: PythonTypes) -> str:
+    """`{"name": value}` of the inputs that a caller may leave out, or an empty string."""
+    rows = [
+        f"{literals.quoted(p.name)}: {types.zero(p.type, p.default).text}"
+        for p in operation.optional_inputs
+    ]
+    return f"{{{', '.join(rows)}}}" if rows else ""
 
 
 def _fields(parameters: Iterable[Param], types: PythonTypes) -> str:

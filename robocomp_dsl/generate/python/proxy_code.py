@@ -48,11 +48,21 @@ def method_code(
     doc = docs.of_operation(operation, types)
     return MethodCode(
         interface_names.methods[operation],
-        ", ".join(["self", *(f"{a}: {t}" for a, t in arguments)]),
+        ", ".join(["self", *_parameters(operation, arguments, types)]),
         types.returns(operation),
         literals.docstring(doc, BODY) if doc else "",
         ", ".join([literals.quoted(operation.name), *(a for a, _ in arguments)]),
     )
+
+
+def _parameters(
+    operation: Operation, arguments: list[tuple[str, str]], types: PythonTypes
+) -> Iterable[str]:
+    """Name and annotation of each argument, and the default of the last ones that have one."""
+    optional = operation.optional_inputs
+    for (name, annotation), param in zip(arguments, operation.inputs, strict=True):
+        default = f" = {types.zero(param.type, param.default).text}" if param in optional else ""
+        yield f"{name}: {annotation}{default}"
 
 
 def form_codes(

@@ -52,7 +52,7 @@ class NumpyArray(ValueRecord):
     dtype: str
 
 
-_NUMPY = {
+NUMPY = {
     BOOL: NumpyArray("rt.BoolArray", "rt.BoolColumn", "np.bool_"),
     BYTE: NumpyArray("rt.UInt8Array", "rt.UInt8Column", "np.uint8"),
     SHORT: NumpyArray("rt.Int16Array", "rt.Int16Column", "np.int16"),
@@ -156,7 +156,7 @@ class PythonTypes:
         return Zero("{}" if isinstance(type_, Dictionary) else "[]", fresh=True)
 
     def _first(self, type_: Enum, default: Literal | None) -> str:
-        """The default, else the enumerator with value 0, else the first one."""
+        """The default, else the enumerator with value 0, else the first enumerator."""
         by_rank = sorted(type_.enumerators, key=lambda e: (e.name != default, e.value != 0))
         return f"{self.names[type_]}.{self._enumerators[by_rank[0]]}"
 
@@ -197,13 +197,13 @@ def _primitive(type_: Type, default: Literal | None) -> str:
 def numpy_of(type_: Type) -> NumpyArray | None:
     """The numpy array of a sequence of numbers or bools; None for other types."""
     if isinstance(type_, Sequence) and isinstance(type_.element, Primitive):
-        return _NUMPY.get(type_.element)
+        return NUMPY.get(type_.element)
     return None
 
 
 def column_of(type_: Type) -> str:
     """The expression for one column of an array of structs; enum columns hold ints."""
-    return _NUMPY[type_ if isinstance(type_, Primitive) else INT].column
+    return NUMPY[type_ if isinstance(type_, Primitive) else INT].column
 
 
 def record_element(type_: Type) -> Struct | None:

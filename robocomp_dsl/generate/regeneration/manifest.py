@@ -21,19 +21,19 @@ from robocomp_dsl.source import Source, UnreadableSource
 FILE = f"{MANIFEST_FOLDER}methods.json"
 
 
-def read(folder: Path, report: Report) -> dict[str, Signature]:
-    """The recorded signatures by method; empty without a readable manifest."""
-    path = folder / FILE
+def read(folder: Path, report: Report, name: str = FILE) -> dict[str, Signature]:
+    """The recorded signatures by method; empty without a readable manifest `name`."""
+    path = folder / name
     try:
         source = Source.read(path)
-        return {name: _signature(value) for name, value in json.loads(source.text).items()}
+        return {method: _signature(value) for method, value in json.loads(source.text).items()}
     except UnreadableSource:
         return {}
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         report.add(
             codes.UNREADABLE_MANIFEST,
             source.file_span,
-            f"`{FILE}` is damaged; changed and stale methods are unknown",
+            f"`{name}` is damaged; changed and stale methods are unknown",
             help="rcgen writes it again; keep the folder `.rcgen` under version control",
         )
         return {}
@@ -57,13 +57,13 @@ def of_now(
     return signatures
 
 
-def file_of(known: Mapping[str, Signature]) -> OutputFile:
+def file_of(known: Mapping[str, Signature], path: str = FILE) -> OutputFile:
     """The manifest as a file."""
     rows = {
         name: {"arguments": [list(a) for a in signature.arguments], "returns": signature.returns}
         for name, signature in sorted(known.items())
     }
-    return OutputFile(FILE, json.dumps(rows, indent=1, ensure_ascii=False) + "\n")
+    return OutputFile(path, json.dumps(rows, indent=1, ensure_ascii=False) + "\n")
 
 
 def _signature(value: dict[str, object]) -> Signature:

@@ -22,6 +22,8 @@ from robocomp_dsl.generate.regeneration.user_module import UserModule, bound_nam
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.source import Source
 
+RUNTIME_TYPES = ("rt", "from robocomp_dsl.runtime import types as rt")
+"""The name in annotations of arrays, and the line that imports it."""
 QUALIFIER = "generated_interfaces"
 """Alias of the types' module if the user uses the name of a type for something else."""
 
@@ -159,6 +161,9 @@ def _imports(
     """The names of the types in the user's module, and the missing import lines."""
     module = f"{package}.interfaces"
     needed = dict.fromkeys(name for method in missing for name in method.types)
+    runtime, runtime_line = RUNTIME_TYPES
+    needs_runtime = runtime in needed
+    needed.pop(runtime, None)
     local: dict[str, str] = {}
     star = False
     for node in user.tree.body:
@@ -170,6 +175,8 @@ def _imports(
     clashing = [n for n in needed if n not in local and n in taken]
     local |= {name: f"{QUALIFIER}.{name}" for name in clashing}
     lines = [f"from {module} import {', '.join(sorted(fresh))}"] if fresh else []
+    if needs_runtime and runtime not in taken:
+        lines.insert(0, runtime_line)
     if clashing and QUALIFIER not in taken:
         lines.append(f"from {package} import interfaces as {QUALIFIER}")
     return local, lines

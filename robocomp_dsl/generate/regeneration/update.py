@@ -44,15 +44,19 @@ def update_user_files(
     report: Report,
     *,
     writes: bool = True,
+    methods: Mapping[str, Method] | None = None,
+    recorded: str = manifest.FILE,
 ) -> list[OutputFile]:
     """The files to write over those in `folder`; `report` gets the findings.
 
     Without `writes` the findings describe what would be done, at locations in the current files.
+    `methods` are those that the user's class should have, the default is those of the operations
+    and states; `recorded` is the file in which their signatures are recorded.
     """
     py_names = names_of(component)
     files = package_rename.renamed(folder, py_names.package, files, report)
-    methods = methods_of(component, py_names)
-    known = manifest.read(folder, report)
+    methods = methods_of(component, py_names) if methods is None else methods
+    known = manifest.read(folder, report, recorded)
     others = [file for file in files if file.path != WORKER]
     worker_files = [file for file in files if file.path == WORKER]
     try:
@@ -77,8 +81,9 @@ def update_user_files(
         )
     # While Python cannot parse the file, its old entries stay for the time when it is fixed.
     unread = any(finding.code is codes.UNREADABLE_WORKER for finding in report)
-    recorded = manifest.file_of(known if unread else manifest.of_now(methods, known, user))
-    return [*worker_files, *merge.merged(folder, others, report, writes=writes), recorded]
+    signatures = known if unread else manifest.of_now(methods, known, user)
+    record = manifest.file_of(signatures, recorded)
+    return [*worker_files, *merge.merged(folder, others, report, writes=writes), record]
 
 
 def _with_new_imports(

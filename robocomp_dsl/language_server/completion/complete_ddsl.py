@@ -138,7 +138,7 @@ _KEYWORD_VALUES = {"RESTART": POLICIES, "PRIORITY": PRIORITIES}
 
 
 def _all_instances(files: Sequence[ast.File]) -> Iterator[ast.Instance]:
-    """The instances of all trees, the oldest tree first, so that newer ones override."""
+    """The instances of all trees, the oldest tree first, so that newer instances override."""
     for file in reversed(files):
         todo: list[ast.Deployment | ast.Group] = [file.deployment] if file.deployment else []
         while todo:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from lsprotocol import types as lsp
 
+from robocomp_dsl.check.workspace.yarp_definitions import declares_types_only
 from robocomp_dsl.language_server.completion.candidates import CompletionCandidate
 from robocomp_dsl.language_server.completion.context import CompletionContext
 from robocomp_dsl.language_server.session import Session
@@ -34,9 +35,13 @@ def _imports(session: Session, context: CompletionContext) -> Iterator[str]:
     if context.path.suffix.lower() != ".ddsl":
         known = session.workspace.import_resolver.importable_files(context.path)
         yield from (name for name in known if name != context.path.name)
-        if context.path.suffix.lower() == ".idsl":
-            resolver = session.workspace.import_resolver
+        resolver = session.workspace.import_resolver
+        is_component = context.path.suffix.lower() == ".cdsl"
+        if not is_component:
             yield from resolver.ros.importable(context.path, context.path)
+        for name in resolver.yarp.importable(context.path, context.path):
+            if not (is_component and declares_types_only(name)):
+                yield name
         return
     yield from _files_in_folder(session, context, (".cdsl",))
     for path in session.known_files():

@@ -23,6 +23,7 @@ KINDS: dict[type, lsp.SymbolKind] = {
     idsl.Enumerator: lsp.SymbolKind.EnumMember,
     idsl.Sequence: lsp.SymbolKind.Array,
     idsl.Dictionary: lsp.SymbolKind.Object,
+    idsl.Alias: lsp.SymbolKind.Object,
     idsl.Interface: lsp.SymbolKind.Interface,
     idsl.Operation: lsp.SymbolKind.Method,
     idsl.Field: lsp.SymbolKind.Field,
@@ -66,7 +67,7 @@ def _outline(node: Node, positions: PositionCodec) -> Iterator[lsp.DocumentSymbo
     ]
     for child in sorted(children, key=lambda child: child.span.start):
         kind = KINDS.get(type(child))
-        if kind is None:
+        if kind is None or getattr(child, "is_implicit", False):
             continue
         name, span = _name(child)
         yield lsp.DocumentSymbol(

@@ -33,7 +33,7 @@ def range_formatting(
 
 
 def _edits(session: Session, source: Source, first: int, last: int) -> list[lsp.TextEdit]:
-    """The edits that touch the characters [first, last]; none for a ROS definition."""
+    """The edits that touch the characters [first, last]; none for a definition of ROS or YARP."""
     if source.path.suffix.lower() not in PARSERS:
         return []
     try:

@@ -20,8 +20,8 @@ from robocomp_dsl.language_server.symbols.include_graph import connected_files
 from robocomp_dsl.language_server.symbols.lookup import find_occurrences, occurrences_at
 from robocomp_dsl.language_server.symbols.symbol import Occurrence, Symbol
 from robocomp_dsl.resources import INTERFACES
+from robocomp_dsl.syntax.definitions import DEFINITION_SUFFIXES, YARP_SUFFIXES
 from robocomp_dsl.syntax.grammar.tables import load
-from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _WORD = re.compile(r"[^\W\d][\w.:-]*")
@@ -37,7 +37,7 @@ def prepare(
     if selected is None:
         return None
     _reject_shipped(selected.symbol)
-    _reject_ros(selected.symbol)
+    _reject_definition(selected.symbol)
     extent = session.positions.range_of(selected.span)
     return lsp.PrepareRenamePlaceholder(extent, selected.symbol.name)
 
@@ -49,7 +49,7 @@ def rename(session: Session, params: lsp.RenameParams) -> lsp.WorkspaceEdit | No
         return None
     symbol, name = selected.symbol, params.new_name
     _reject_shipped(symbol)
-    _reject_ros(symbol)
+    _reject_definition(symbol)
     suffix = symbol.span.source.path.suffix.lower()
     if suffix == ".scxml":
         _validate_scxml_id(name)
@@ -82,11 +82,15 @@ def _reject_shipped(symbol: Symbol) -> None:
         )
 
 
-def _reject_ros(symbol: Symbol) -> None:
-    if symbol.span.source.path.suffix.lower() in ROS_SUFFIXES:
+def _reject_definition(symbol: Symbol) -> None:
+    """Reject a name in a definition of ROS or YARP."""
+    suffix = symbol.span.source.path.suffix.lower()
+    if suffix in DEFINITION_SUFFIXES:
+        owner = "YARP" if suffix in YARP_SUFFIXES else "ROS"
         raise JsonRpcInvalidParams(
-            f"`{symbol.name}` is declared in the ROS definition `{symbol.span.source.path.name}`; "
-            "its name is known to all ROS programs that use it"
+            f"`{symbol.name}` is declared in the {owner} definition"
+            f" `{symbol.span.source.path.name}`; its name is known to all {owner} programs that"
+            " use it"
         )
 
 

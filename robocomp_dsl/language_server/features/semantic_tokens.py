@@ -21,6 +21,7 @@ TYPES = {
     "enumerator": "enumMember",
     "sequence": "type",
     "dictionary": "type",
+    "typedef": "type",
     "interface": "interface",
     "operation": "method",
     "field": "property",

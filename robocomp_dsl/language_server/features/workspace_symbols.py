@@ -15,6 +15,7 @@ KINDS = {
     "enum": lsp.SymbolKind.Enum,
     "sequence": lsp.SymbolKind.Array,
     "dictionary": lsp.SymbolKind.Object,
+    "typedef": lsp.SymbolKind.Object,
     "interface": lsp.SymbolKind.Interface,
     "operation": lsp.SymbolKind.Method,
     "component": lsp.SymbolKind.Class,

@@ -19,7 +19,7 @@ def type_name(type_: types.Type | None) -> str:
 
 def format_operation(operation: Operation) -> str:
     """An operation with its pattern, explicit or inferred."""
-    inputs = [_typed(p.type, p.name, p.unit) for p in operation.inputs]
+    inputs = [_typed(p.type, p.name, p.unit) + _default(p) for p in operation.inputs]
     outputs = [f"out {_typed(p.type, p.name, p.unit)}" for p in operation.outputs]
     exceptions = ", ".join(exception.qualified for exception in operation.throws)
     throws = f" throws {exceptions}" if exceptions else ""
@@ -77,6 +77,10 @@ def _dictionary(dictionary: types.Dictionary) -> str:
     return head + _referenced_signature(dictionary.value)
 
 
+def _alias(alias: types.Alias) -> str:
+    return f"typedef {type_name(alias.target)} {alias.name};" + _referenced_signature(alias.target)
+
+
 def _module(module: Module) -> str:
     names = [declaration.name for declaration in module.declarations]
     return format_block(f"module {module.name}", names)
@@ -90,8 +94,8 @@ def _fields(fields: Sequence[types.Field]) -> list[str]:
     return [_typed(field.type, field.name, field.unit) + _default(field) + ";" for field in fields]
 
 
-def _default(field: types.Field) -> str:
-    if field.items:
+def _default(field: types.Field | Param) -> str:
+    if isinstance(field, types.Field) and field.items:
         return f" = [{', '.join(map(_shown, field.items))}]"
     return "" if field.default is None else f" = {_shown(field.default)}"
 
@@ -118,6 +122,7 @@ SIGNATURES: dict[type, Callable[[Any], str]] = {
     types.Enumerator: _enumerator,
     types.Sequence: _sequence,
     types.Dictionary: _dictionary,
+    types.Alias: _alias,
     types.Field: _member,
     types.Constant: _constant,
     Param: _member,

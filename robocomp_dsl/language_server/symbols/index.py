@@ -21,14 +21,14 @@ from robocomp_dsl.language_server.symbols import (
 )
 from robocomp_dsl.language_server.symbols.symbol import Index, Occurrence
 from robocomp_dsl.source import Source
-from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
+from robocomp_dsl.syntax.definitions import DEFINITION_SUFFIXES
 
 Indexer = Callable[[Path, Workspace], tuple[Source, bool, Iterable[Occurrence]]]
 """Returns the source of a file, whether it has no syntax errors, and its occurrences."""
 
 INDEXERS: dict[str, Indexer] = {
     ".idsl": symbols_idsl.index_file,
-    **dict.fromkeys(ROS_SUFFIXES, symbols_idsl.index_file),
+    **dict.fromkeys(DEFINITION_SUFFIXES, symbols_idsl.index_file),
     ".cdsl": symbols_cdsl.index_file,
     ".pdsl": symbols_pdsl.index_file,
     ".ddsl": symbols_ddsl.index_file,

@@ -21,6 +21,7 @@ KINDS: dict[type, str] = {
     types.Enum: "enum",
     types.Sequence: "sequence",
     types.Dictionary: "dictionary",
+    types.Alias: "typedef",
     Interface: "interface",
 }
 
@@ -33,9 +34,12 @@ def index_file(path: Path, workspace: Workspace) -> tuple[Source, bool, list[Occ
     occurrences = [
         Occurrence(s.span, s, declares=True) for m in loaded.modules for s in module_symbols(m)
     ]
+    declared = {o.span for o in occurrences}
     for tree in loaded.parsed.tree.modules:
         for name in qualified_names(tree):
-            occurrences += occurrences_of(name, visible, types.Declaration, loaded)
+            found = occurrences_of(name, visible, types.Declaration, loaded)
+            # Thrift's `list<T>` is declared where it is first used.
+            occurrences += (o for o in found if o.span not in declared)
     occurrences += _default_occurrences(loaded)
     return loaded.parsed.source, loaded.parsed.tree.complete, occurrences
 
@@ -49,7 +53,7 @@ def declaration_symbol(declaration: types.Declaration) -> Symbol:
 def module_symbols(module: Module) -> Iterator[Symbol]:
     """The symbols of `module` and of all declarations in it, down to parameters."""
     yield Symbol(module.name, "module", module.span, module)
-    for declaration in module.declarations:
+    for declaration in (*module.declarations, *module.aliases):
         yield declaration_symbol(declaration)
         yield from _member_symbols(declaration)
 
@@ -67,7 +71,7 @@ def _member_symbols(declaration: types.Declaration) -> Iterator[Symbol]:
             for value in declaration.enumerators:
                 yield Symbol(value.name, "enumerator", value.span, value, container)
         case Interface():
-            for operation in declaration.operations:
+            for operation in declaration.own_operations:
                 yield Symbol(operation.name, "operation", operation.span, operation, container)
                 yield from _parameter_symbols(operation)
 

@@ -14,10 +14,16 @@ from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.runtime.codec.emitter import HEADER, Emitter
+from robocomp_dsl.runtime.codec.emitter import Emitter
 from robocomp_dsl.runtime.codec.read import read
 from robocomp_dsl.runtime.codec.struct_arrays import checker, unpack
-from robocomp_dsl.runtime.data.layout import padding, row_layout
+from robocomp_dsl.runtime.codec.wire_profile import (
+    CDR,
+    MAX_EMPTY_ELEMENTS,
+    SEQ_BYTES,
+    WireProfile,
+)
+from robocomp_dsl.runtime.data.layout import packed_layout, padding, row_layout
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
     Array,
@@ -31,26 +37,28 @@ from robocomp_dsl.runtime.data.schema import (
 from robocomp_dsl.runtime.data.struct import Struct
 
 
-def decoder_function(fields: Fields, form: str) -> Callable[[Any], Any]:
+def decoder_function(fields: Fields, form: str, wire: WireProfile = CDR) -> Callable[[Any], Any]:
     """The decoder; `form` is the form of the result: `none`, `one` or `tuple`."""
     compiled: list[Callable[[Any], Any]] = []
 
     def from_view(buffer: Any) -> Any:
         """Buffers other than bytes need their own decoder, because they have no `decode`."""
         if not compiled:
-            compiled.append(_written(fields, form, view=True))
+            compiled.append(_written(fields, form, wire, view=True))
         return compiled[0](memoryview(buffer).toreadonly().cast("B"))
 
-    return _written(fields, form, view=False, other=from_view)
+    return _written(fields, form, wire, view=False, other=from_view)
 
 
-def _written(fields: Fields, form: str, view: bool, other: Any = None) -> Callable[[Any], Any]:
-    writer = _Decoder(view)
+def _written(
+    fields: Fields, form: str, wire: WireProfile, *, view: bool, other: Any = None
+) -> Callable[[Any], Any]:
+    writer = _Decoder(wire, view)
     if not view:
         writer.names["other"] = other
         writer.line("if b.__class__ is not bytes: return other(b)")
     writer.message(fields, form)
-    writer.names["read"] = partial(read, fields, form)
+    writer.names["read"] = partial(read, fields, form, wire=wire)
     tail = "    except Exception: pass\n    return read(b)"
     return writer.compiled("def decode(b):", tail, "decode")
 
@@ -63,19 +71,20 @@ class _Decoder(Emitter):
     """`after` has the lines to emit after the numbers in `run` are unpacked."""
 
     variable = "o"
-    origin = 4
 
-    def __init__(self, view: bool) -> None:
-        super().__init__({"ndarray": np.ndarray})
+    def __init__(self, wire: WireProfile, view: bool) -> None:
+        super().__init__({"ndarray": np.ndarray}, wire)
+        self.origin = wire.start
         self.view = view
         self.after: list[str] = []
 
     def message(self, fields: Fields, form: str) -> None:
         """The complete body."""
-        self.line(f"if {self.number('I')} != {HEADER}: raise ValueError")
+        if self.wire.header is not None:
+            self.line(f"if {self.number('I')} != {self.wire.header}: raise ValueError")
         values = [self.value(type_) for _, type_ in fields]
         if not fields:
-            self.run.append(("x", ""))
+            self.pad_empty()
         self.flush()
         end = "o"
         if self.at is not None:
@@ -87,6 +96,11 @@ class _Decoder(Emitter):
             self.line(f"return ({''.join(f'{value}, ' for value in values)})")
         else:
             self.line(f"return {values[0] if values else None}")
+
+    def pad_empty(self) -> None:
+        """A struct without fields."""
+        if self.wire.pads_empty:
+            self.run.append(("x", ""))
 
     def line(self, text: str) -> None:
         """Append a line, after the numbers that it may need."""
@@ -151,24 +165,33 @@ class _Decoder(Emitter):
         return "o"
 
     def text(self, type_: Primitive) -> str:
-        """Length, UTF-8, NUL. Some peers write an empty string as length 0."""
+        """Length, UTF-8, NUL. Some peers write an empty string as length 0.
+
+        Without NUL a slice beyond the end is short; the end of the message shows it.
+        """
         length, text, end = self.number("I"), self.name("s"), self.name("e")
         start = self.start()
+        nul = int(self.wire.terminated)
         if type_.bound:
-            self.line(f"if {length} > {type_.bound + 1}: raise ValueError")
-        self.line(f"{end} = {start} + {length} - 1")
-        self.line(f"if b[{end}]: raise ValueError")
+            self.line(f"if {length} > {type_.bound + nul}: raise ValueError")
+        if nul:
+            self.line(f"{end} = {start} + {length} - 1")
+            self.line(f"if b[{end}]: raise ValueError")
+        else:
+            self.line(f"{end} = {start} + {length}")
         cut = f"b[{start}:{end}]"
         self.line(f"{text} = " + (f"str({cut}, 'utf-8')" if self.view else f"{cut}.decode()"))
         self.advance()
-        self.later = [f"{end} + 1"]
+        self.later = [f"{end} + 1" if nul else end]
         self._unset = True
         return text
 
     def record(self, type_: type[Struct]) -> str:
         """An object, created without calling `__init__`, which would only set defaults."""
         if not type_._fields_:
-            self.run.append(("x", ""))
+            self.pad_empty()
+        if self.wire.inserts_seq(type_):
+            self.run += [("x", "")] * SEQ_BYTES
         values = [self.value(inner) for _, inner in type_._fields_]
         name = self.name("v")
         self.line(f"{name} = {self.constant(type_.__new__)}({self.constant(type_)})")
@@ -208,6 +231,7 @@ class _Decoder(Emitter):
     ) -> str:
         """A count, and as many elements in numpy's memory layout."""
         count, name = self.number("I"), self.name("a")
+        alignment = self.wire.alignment(alignment)
         start = self.start()
         if type_:
             self.limit(type_, count)
@@ -223,7 +247,13 @@ class _Decoder(Emitter):
     def struct_array(self, type_: Any) -> str:
         """A structured array: a view of the message if wire and memory layout are the same."""
         layout = row_layout(type_._element_)
-        if layout.direct:
+        if not self.wire.aligned:
+            packed = packed_layout(type_._element_)
+            name = self.block(packed.dtype, packed.stride, 1)
+            if packed.dtype != layout.dtype:
+                self.line(f"{name} = {name}.astype({self.constant(layout.dtype)})")
+                self.line(f"{name}.flags.writeable = False")
+        elif layout.direct:
             name = self.block(layout.dtype, layout.stride, layout.alignment)
         else:
             count, name = self.number("I"), self.name("a")
@@ -245,6 +275,8 @@ class _Decoder(Emitter):
         self.flush()
         if not type_.size:
             self.limit(type_, count)
+            if not self.wire.pads_empty:
+                self.line(f"if {count} > len(b) + {MAX_EMPTY_ELEMENTS}: raise ValueError")
         self.line(f"{name} = []")
 
         def body() -> None:

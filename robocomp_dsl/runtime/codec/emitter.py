@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from robocomp_dsl.runtime.codec.source_writer import SourceWriter
+from robocomp_dsl.runtime.codec.wire_profile import CDR, WireProfile
 from robocomp_dsl.runtime.data.layout import padding
 
 SIZES = {
@@ -24,15 +25,12 @@ SIZES = {
 }
 """Size and alignment of each `struct` letter; x is a padding byte."""
 
-HEADER = 0x0100
-"""The header 00 01 00 00 (CDR, little endian, no options), read as a little-endian number."""
 
-
-def numbers(codes: Iterable[str], start: int) -> struct.Struct:
+def numbers(codes: Iterable[str], start: int, wire: WireProfile = CDR) -> struct.Struct:
     """The format of adjacent numbers if the first one's padding starts at `start`."""
     form, at = "<", start
     for code in codes:
-        gap = padding(at, SIZES[code])
+        gap = padding(at, wire.alignment(SIZES[code]))
         form += "x" * gap + code
         at += gap + SIZES[code]
     return struct.Struct(form)
@@ -49,9 +47,10 @@ class Emitter(SourceWriter):
     variable = "p"
     origin = 0
 
-    def __init__(self, names: dict[str, Any]) -> None:
+    def __init__(self, names: dict[str, Any], wire: WireProfile = CDR) -> None:
         super().__init__(names)
-        self.at: int | None = -4
+        self.wire = wire
+        self.at: int | None = -wire.start
         self.multiple = 1
         self.later: list[str] = []
         self.run: list[tuple[str, str]] = []
@@ -69,12 +68,12 @@ class Emitter(SourceWriter):
         codes = [code for code, _ in self.run]
         self.run = []
         if self.at is not None:
-            here, layout = self.at, numbers(codes, self.at)
+            here, layout = self.at, numbers(codes, self.at, self.wire)
             self.at += layout.size
             return lambda pick: self.constant(pick(layout)), here
-        alignment = max(SIZES[code] for code in codes)
+        alignment = max(self.wire.alignment(SIZES[code]) for code in codes)
         known = self.multiple >= alignment
-        layout = numbers(codes, 0)
+        layout = numbers(codes, 0, self.wire)
         # After the widest number the residue is independent of the start.
         self.multiple = min(alignment, layout.size & -layout.size)
         self.settle()
@@ -104,7 +103,9 @@ class Emitter(SourceWriter):
             self.multiple = min(self.multiple, size & -size)
 
     def is_aligned(self, alignment: int) -> bool:
-        """Whether the position is known to be a multiple of `alignment`."""
+        """Whether the position is known to be a multiple of `alignment`, if that matters."""
+        if not self.wire.aligned:
+            return True
         known = self.multiple if self.at is None else self.at & -self.at or alignment
         return known >= alignment
 

@@ -19,11 +19,12 @@ from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.runtime.codec.emitter import HEADER, Emitter
+from robocomp_dsl.runtime.codec.emitter import Emitter
 from robocomp_dsl.runtime.codec.explain import explain
 from robocomp_dsl.runtime.codec.struct_arrays import checker, pack
+from robocomp_dsl.runtime.codec.wire_profile import CDR, WireProfile
 from robocomp_dsl.runtime.data.convert import FLAGS, as_array, as_list
-from robocomp_dsl.runtime.data.layout import padding, row_layout
+from robocomp_dsl.runtime.data.layout import packed_layout, padding, row_layout
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
     Array,
@@ -41,13 +42,19 @@ _GAPS = (b"", None, None, None, bytes(4))  # padding before numbers of 8 bytes: 
 
 
 def encoder_function(
-    fields: Fields, form: str, join: Callable[[Iterable[Any]], Any] = b"".join
+    fields: Fields,
+    form: str,
+    join: Callable[[Iterable[Any]], Any] = b"".join,
+    wire: WireProfile = CDR,
+    *,
+    omits_seq: bool = False,
 ) -> Callable[[Any], Any]:
     """The encoder; `form` is the form of the values: `none`, `one` or `tuple`.
 
-    `join` makes the message of its parts.
+    `join` makes the message of its parts. `omits_seq`: without the `seq` that the message starts
+    with; the sender adds it.
     """
-    writer = _Encoder()
+    writer = _Encoder(wire, omits_seq)
     writer.names["join"] = join
     writer.message(fields, form)
 
@@ -66,14 +73,16 @@ def _packer(layout: struct.Struct) -> Callable[..., Any]:
 class _Encoder(Emitter):
     """`parts` are the expressions for the pieces of the message that are not yet joined."""
 
-    def __init__(self) -> None:
-        super().__init__({"join": b"".join, "ndarray": np.ndarray, "as_array": as_array})
+    def __init__(self, wire: WireProfile, omits_seq: bool) -> None:
+        super().__init__({"join": b"".join, "ndarray": np.ndarray, "as_array": as_array}, wire)
+        self.omits_seq = omits_seq
         self.parts: list[str] = []
         self.spilled = False
 
     def message(self, fields: Fields, form: str) -> None:
         """The complete body."""
-        self.run.append(("I", str(HEADER)))
+        if self.wire.header is not None:
+            self.run.append(("I", str(self.wire.header)))
         names = ["value"]
         if form == "tuple":
             names = [self.name("a") for _ in fields]
@@ -81,17 +90,22 @@ class _Encoder(Emitter):
         for name, (_, type_) in zip(names, fields, strict=False):
             self.value(type_, name)
         if not fields:
-            self.run.append(("x", ""))
+            self.pad_empty()
             if form == "none":
                 self.line("if value is not None: raise TypeError")
         self.flush()
         if self.spilled:
             self.spill()
             self.line("return join(out)")
-        elif len(self.parts) == 1:
+        elif len(self.parts) == 1 and self.parts[0].endswith(")"):  # packed, so bytes
             self.line(f"return {self.parts[0]}")
         else:
-            self.line(f"return join(({', '.join(self.parts)}))")
+            self.line(f"return join(({''.join(f'{part}, ' for part in self.parts)}))")
+
+    def pad_empty(self) -> None:
+        """A struct without fields."""
+        if self.wire.pads_empty:
+            self.run.append(("x", ""))
 
     def flush(self) -> None:
         """Emit one `pack` for the pending numbers."""
@@ -158,20 +172,28 @@ class _Encoder(Emitter):
         self.line(f"{length} = len({text})")
         if type_.bound:
             self.line(f"if {length} > {type_.bound}: raise ValueError")
-        self.run.append(("I", f"{length} + 1"))
+        terminated = self.wire.terminated
+        self.run.append(("I", f"{length} + 1" if terminated else length))
         self.flush()
         self.parts.append(text)
         self.advance(length)
-        self.run.append(("x", ""))
+        if terminated:
+            self.run.append(("x", ""))
 
     def record(self, type_: type[Struct], expression: str) -> None:
         """The fields in order."""
         if not type_._fields_:
-            self.run.append(("x", ""))
+            self.pad_empty()
             return
+        if self.wire.inserts_seq(type_) and not (self.omits_seq and self.is_first()):
+            self.run.append(("I", "0"))
         name = self.assigned("v", expression)
         for attribute, (_, inner) in zip(type_._names_, type_._fields_, strict=True):
             self.value(inner, f"{name}.{attribute}")
+
+    def is_first(self) -> bool:
+        """Whether nothing is before this value."""
+        return self.at == 0 and not (self.run or self.parts)
 
     def array(self, type_: Array, expression: str) -> None:
         """A numpy array; its memory is a piece of the message."""
@@ -214,6 +236,13 @@ class _Encoder(Emitter):
         )
         if check := checker(layout):
             self.line(f"{self.constant(check)}({name})")
+        if not self.wire.aligned:
+            packed = packed_layout(type_._element_)
+            if packed.dtype != layout.dtype:
+                self.line(f"{name} = {name}.astype({self.constant(packed.dtype)})")
+            self.line(f"if {name}.strides != ({packed.stride},): {name} = {name}.copy()")
+            self.block(name, packed.stride, 1)
+            return
         if layout.direct:
             self.line(f"if {name}.strides != ({layout.stride},): {name} = {name}.copy()")
             self.block(name, layout.stride, layout.alignment)
@@ -237,6 +266,7 @@ class _Encoder(Emitter):
     def block(self, name: str, size: int, alignment: int) -> None:
         """A count, and memory sent unchanged. An empty array has no padding before it."""
         count = self.count(name)
+        alignment = self.wire.alignment(alignment)
         gaps = []
         if alignment == 8 and (self.at is None or self.at % 8):
             if self.at is None:

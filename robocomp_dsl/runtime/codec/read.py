@@ -13,7 +13,13 @@ from typing import Any
 import numpy as np
 
 from robocomp_dsl.runtime.codec.struct_arrays import bad_element, begin, unpack
-from robocomp_dsl.runtime.data.layout import padding, row_layout
+from robocomp_dsl.runtime.codec.wire_profile import (
+    CDR,
+    MAX_EMPTY_ELEMENTS,
+    SEQ_BYTES,
+    WireProfile,
+)
+from robocomp_dsl.runtime.data.layout import packed_layout, padding, row_layout
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
     Array,
@@ -30,14 +36,14 @@ from robocomp_dsl.runtime.errors import MalformedMessage
 _BIG, _LITTLE = b"\0\0", b"\0\1"
 
 
-def read(fields: Fields, form: str, message: Any) -> Any:
+def read(fields: Fields, form: str, message: Any, wire: WireProfile = CDR) -> Any:
     """The values of `fields`; `form` is the form of the result: `none`, `one` or `tuple`."""
-    reader = _Reader(message)
+    reader = _Reader(message, wire)
     several = form == "tuple"
     values = tuple(
         reader.value(type_, (name or "result") if several else name) for name, type_ in fields
     )
-    if not fields:
+    if not fields and wire.pads_empty:
         reader.take(1, "")
     reader.finish()
     if several:
@@ -47,7 +53,7 @@ def read(fields: Fields, form: str, message: Any) -> Any:
 
 def read_number(message: Any, limit: int, what: str) -> int:
     """The int at the start of a message, from 0 to below `limit`."""
-    reader = _Reader(memoryview(message))
+    reader = _Reader(memoryview(message), CDR)
     number: int = reader.number("i", "")
     if not 0 <= number < limit:
         raise MalformedMessage(f"{number} is no {what} (below {limit})", "", 4)
@@ -71,7 +77,16 @@ def check_text_length(type_: Primitive, size: int, path: str, offset: int) -> No
 class _Reader:
     """The bytes and the read position; all offsets from the start of the message."""
 
-    def __init__(self, message: Any) -> None:
+    def __init__(self, message: Any, wire: WireProfile) -> None:
+        self.wire = wire
+        self.big = False
+        self.data = message
+        self.at = wire.start
+        if wire.header is not None:
+            self._open(message)
+
+    def _open(self, message: Any) -> None:
+        """Read the header of CDR."""
         if len(message) < 4:
             raise MalformedMessage(f"{len(message)} bytes, shorter than the header of 4")
         kind, options = bytes(message[:2]), message[3] & 3
@@ -82,11 +97,10 @@ class _Reader:
         # Arrays are views of the message and must not be writable.
         self.data = message[: len(message) - options] if options else message
         self.big = kind == _BIG
-        self.at = 4
 
     def take(self, size: int, path: str, alignment: int = 1) -> int:
         """Skip padding and `size` bytes; returns the offset where the bytes start."""
-        start = self.at + padding(self.at - 4, alignment)
+        start = self.at + padding(self.at - self.wire.start, self.wire.alignment(alignment))
         if start + size > len(self.data):
             start = min(start, len(self.data))
             left = len(self.data) - start
@@ -156,15 +170,16 @@ class _Reader:
 
     def text(self, type_: Primitive, path: str) -> str:
         """Length, UTF-8, NUL."""
+        nul = int(self.wire.terminated)
         length = self.number("I", path)
-        check_text_length(type_, length - 1, path, self.at - 4)
+        check_text_length(type_, length - nul, path, self.at - 4)
         start = self.take(length, path)
         if not length:
             return ""
-        if self.data[self.at - 1]:
+        if nul and self.data[self.at - 1]:
             raise MalformedMessage("the text does not end with NUL", path, self.at - 1)
         try:
-            return str(self.data[start : self.at - 1], "utf-8")
+            return str(self.data[start : self.at - nul], "utf-8")
         except UnicodeDecodeError as error:
             raise MalformedMessage("the text is not UTF-8", path, start + error.start) from None
 
@@ -181,15 +196,19 @@ class _Reader:
     def record(self, type_: type[Struct], path: str) -> Struct:
         """A struct or exception."""
         value = type_.__new__(type_)
+        if self.wire.inserts_seq(type_):
+            self.take(SEQ_BYTES, f"{path}.seq" if path else "seq")
         for attribute, (name, inner) in zip(type_._names_, type_._fields_, strict=True):
             setattr(value, attribute, self.value(inner, f"{path}.{name}" if path else name))
-        if not type_._fields_:
+        if not type_._fields_ and self.wire.pads_empty:
             self.take(1, path)
         return value
 
     def sequence(self, type_: Sequence, path: str) -> list[Any]:
-        """A list; every element has at least one byte."""
-        count = self.length(type_, path, 1)
+        """A list; in CDR every element has at least one byte."""
+        count = self.length(type_, path, 1 if self.wire.pads_empty else 0)
+        if count > len(self.data) + MAX_EMPTY_ELEMENTS:
+            raise MalformedMessage(f"{count} elements claimed", path, self.at - 4)
         return [self.value(type_.element, f"{path}[{i}]") for i in range(count)]
 
     def dictionary(self, type_: Dictionary, path: str) -> dict[Any, Any]:
@@ -231,6 +250,8 @@ class _Reader:
         """Elements of fixed structs."""
         layout = row_layout(type_._element_)
         count = self.count(path, sum(leaf.primitive.size for leaf in layout.leaves))
+        if not self.wire.aligned:
+            return self.packed_array(type_, count, path)
         at, dtype = self.at, self.ordered(layout.dtype)
         try:
             array, self.at = unpack(layout, self.data, at, count, dtype)
@@ -241,3 +262,17 @@ class _Reader:
             self.at = begin(layout, at, wrong)
             self.record(type_._element_, f"{path}[{wrong}]")
         return type_._over(self.native(array, layout.dtype))
+
+    def packed_array(self, type_: Any, count: int, path: str) -> Any:
+        """Elements of fixed structs without padding."""
+        layout, packed = row_layout(type_._element_), packed_layout(type_._element_)
+        at = self.take(count * packed.stride, path)
+        array: Any = np.ndarray(count, packed.dtype, self.data, at)
+        wrong = bad_element(packed, array)
+        if wrong is not None:  # reading it again locates the error
+            self.at = at + wrong * packed.stride
+            self.record(type_._element_, f"{path}[{wrong}]")
+        if packed.dtype != layout.dtype:
+            array = array.astype(layout.dtype)
+            array.flags.writeable = False
+        return type_._over(array)

@@ -72,7 +72,7 @@ class Component:
         """Leave a declared emergency: `restore`, then `compute` again."""
         self._lifecycle.end_emergency()
 
-    def set_period(self, milliseconds: int) -> None:
+    def set_period(self, milliseconds: float) -> None:
         """Change the period of `compute`, in ms; 0: event-driven."""
         self._lifecycle.set_period(milliseconds)
 

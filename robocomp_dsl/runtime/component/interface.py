@@ -7,7 +7,7 @@ on first use.
 from __future__ import annotations
 
 import enum
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -41,7 +41,8 @@ class Operation:
     Generated code states inputs and outputs as names with annotations, and the result as `returns`.
     The codecs use the values of the Python methods: a request is the tuple of the arguments; a
     reply is None without outputs, the output itself if there is one, else a tuple. Encoders raise
-    only `EncodeError`, decoders only `MalformedMessage`.
+    only `EncodeError`, decoders only `MalformedMessage`. `defaults` are the values of the last
+    inputs that a caller of a Thrift service may leave out; generated proxies always send them.
     """
 
     def __init__(
@@ -54,6 +55,7 @@ class Operation:
         *,
         returns: object = None,
         idempotent: bool = False,
+        defaults: Mapping[str, object] | None = None,
     ) -> None:
         self.name = name
         self.pattern = pattern
@@ -62,6 +64,7 @@ class Operation:
         self.outputs = (*result, *fields_of(outputs))
         self.throws = throws
         self.idempotent = idempotent
+        self.defaults = tuple((defaults or {}).values())
 
     @property
     def shape(self) -> str:
@@ -105,11 +108,16 @@ class Operation:
 
 
 class Interface:
-    """One interface, `name` as in `Module::Interface`."""
+    """One interface, `name` as in `Module::Interface`.
 
-    def __init__(self, name: str, *operations: Operation) -> None:
+    `style` is "thrift" if it was imported from a Thrift service, else "". The middleware `yarp`
+    carries calls of that style as the code of yarpidl_thrift does; others do not distinguish.
+    """
+
+    def __init__(self, name: str, *operations: Operation, style: str = "") -> None:
         self.name = name
         self.operations = operations
+        self.style = style
 
     @cached_property
     def hash(self) -> bytes:

@@ -68,7 +68,7 @@ class Lifecycle:
     def __init__(
         self,
         hooks: Hooks,
-        period_ms: int,
+        period_ms: float,
         clock: Clock,
         callback_group: CallbackGroup,
         statistics: Statistics,
@@ -78,7 +78,7 @@ class Lifecycle:
         self.period_ms = period_ms
         self._clock = clock
         self._callback_group = callback_group
-        self._statistics = statistics
+        self.statistics = statistics
         self._publish_state = publish_state
         self.machine: Machine | None = None
         self._wake = WakeEvent()
@@ -126,7 +126,7 @@ class Lifecycle:
         self._stopping.set()
         self._wake.stop()
 
-    def set_period(self, period_ms: int) -> None:
+    def set_period(self, period_ms: float) -> None:
         """Change the period; 0: event-driven."""
         self.period_ms = period_ms
         self._wake.set()
@@ -169,10 +169,10 @@ class Lifecycle:
                 begun = time.perf_counter_ns()
                 now = self._clock.now()
                 if last:
-                    self._statistics.periods.add(round((now - last) * NANO))
+                    self.statistics.periods.add(round((now - last) * NANO))
                 last = now
                 self._cycle()
-                self._statistics.computes.add(time.perf_counter_ns() - begun)
+                self.statistics.computes.add(time.perf_counter_ns() - begun)
             elif self.machine:
                 self._run_guarded(self._advance_machine)
             due = self._next_due(due, period)
@@ -203,9 +203,9 @@ class Lifecycle:
             return now
         due += period
         if due < now:
-            self._statistics.overruns += 1
+            self.statistics.overruns += 1
             if self._overrun_throttle.allows("overrun"):
-                log.warning(OVERRUN, 1000 * period, 1000 * (now - due), self._statistics.overruns)
+                log.warning(OVERRUN, 1000 * period, 1000 * (now - due), self.statistics.overruns)
             # Keep the phase, so that a slow cycle does not shift the following ones.
             due += ((now - due) // period) * period
         return round(due, TIME_DIGITS)
@@ -260,7 +260,7 @@ class Lifecycle:
                 return
             if not isinstance(error, Exception):
                 raise
-            self._statistics.failures += 1
+            self.statistics.failures += 1
             self._log_throttled(error)
             self._enter_emergency(describe_error(error))
 

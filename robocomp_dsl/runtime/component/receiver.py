@@ -25,7 +25,7 @@ class LeaderFollowerQueue:
 
     `take` blocks, and raises `closed_error` when the queue is closed. Errors of user code are
     handled by `handle`. Anything that it or `take` raises nevertheless is a fault of the runtime:
-    it goes to `fail`, which ends the component; no other thread waits for the one that died.
+    it goes to `fail`, which ends the component; no other thread waits for the thread that died.
     `priority` is that of the threads.
     """
 
@@ -102,7 +102,7 @@ class LeaderFollowerQueue:
         return True
 
     def _hand_off(self) -> None:
-        """Make another thread the leader, because this one waits; start one if none is free."""
+        """Make another thread the leader, because this thread waits; start one if none is free."""
         if self._leader != threading.get_ident():
             return
         self._leader = 0

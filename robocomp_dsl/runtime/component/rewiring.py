@@ -80,6 +80,12 @@ class Rewiring:
     def connect(self, port: str, peer: str, middleware: str) -> None:
         """See `ComponentConnections.connect`."""
         found = self._find_searching(port)
+        if middleware and registry.known_capabilities(middleware) is None:
+            known = ", ".join(registry.middleware_names())
+            raise Refusal(
+                f"there is no middleware `{middleware}` here, or it is not installed;"
+                f" known: {known}"
+            )
         settings = self._wiring.settings
         try:
             internal, external = parse_external((f"{found.name}={peer}",))
@@ -88,11 +94,11 @@ class Rewiring:
             raise Refusal(str(error)) from None
         for name in parsed.get(found.name, ()):
             full = resolve_name(settings.prefix, name)
-            component = full.rpartition(".")[0]
             for other in self._full_names(found):
                 # Connected twice, it would receive every message twice.
-                if other in (full, component) or other.startswith(f"{full}."):
+                if _is_same(other, full):
                     raise Refusal(f"`{found.name}` is connected to `{other}` already")
+            self._check_middleware(found, full, middleware)
             former = tuple(p for p in settings.connections.get(found.name, ()) if p != NOBODY)
             connections = {**settings.connections, found.name: (*former, f"/{full}")}
             settings = replace(settings, connections=connections)
@@ -100,15 +106,24 @@ class Rewiring:
             peers = (*settings.external.get(found.name, ()), program)
             settings = replace(settings, external={**settings.external, found.name: peers})
         if middleware:
-            if registry.known_capabilities(middleware) is None:
-                known = ", ".join(registry.middleware_names())
-                raise Refusal(
-                    f"there is no middleware `{middleware}` here, or it is not installed;"
-                    f" known: {known}"
-                )
             chosen = {**settings.port_middlewares, found.name: (middleware,)}
             settings = replace(settings, port_middlewares=chosen)
         self._apply(found, settings)
+
+    def _check_middleware(self, port: ServedPort | CalledPort, peer: str, middleware: str) -> None:
+        """Raise `Refusal` if `peer` exists, but on other middlewares than the port will be.
+
+        A peer that does not exist yet may start on any.
+        """
+        at, role = self._wiring.endpoint(port), self._wiring.role_of(port)
+        own = (middleware,) if middleware else at.middlewares
+        found = self._ports().presence.registry.find(_PEER_ROLES[role], at.interface.name)
+        theirs = dict.fromkeys(r.middleware for r in found if _is_same(r.name, peer))
+        if theirs and own and theirs.keys().isdisjoint(own):
+            raise Refusal(
+                f"`{peer}` is on `{', '.join(theirs)}`, so `{port.name}` cannot be connected to it"
+                f" over `{', '.join(own)}`; `--over {next(iter(theirs))}` connects them"
+            )
 
     def disconnect(self, port: str, peer: str) -> None:
         """See `ComponentConnections.disconnect`."""
@@ -121,8 +136,7 @@ class Rewiring:
             settings = replace(settings, external={**settings.external, found.name: remaining})
         else:
             names = self._full_names(found) or self._known_peers(found)
-            component = full.rpartition(".")[0]
-            same = [n for n in names if n in (full, component) or n.startswith(f"{full}.")]
+            same = [n for n in names if _is_same(n, full)]
             if not same:
                 listed = ", ".join(n for n in names if n != NOBODY) or "none"
                 raise Refusal(
@@ -196,3 +210,8 @@ class Rewiring:
         except MiddlewareError as error:
             wiring.settings = former
             raise Refusal(str(error)) from None
+
+
+def _is_same(name: str, other: str) -> bool:
+    """Whether two names mean the same peer: a component, or a port of it."""
+    return name in (other, other.rpartition(".")[0]) or name.startswith(f"{other}.")

@@ -6,7 +6,7 @@ In: items such as `laser=base1` and `laser=front`. Out: `RunSettings`.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -162,7 +162,7 @@ def parse_peer(text: str) -> str:
 
 
 def parse_middlewares(texts: Iterable[str]) -> tuple[str, dict[str, tuple[str, ...]]]:
-    """`M` for all ports, `PORT=M,M` for one, in order of preference. Raises `InvalidSetting`."""
+    """`M` for all ports, `PORT=M,M` for a port, in order of preference. Raises `InvalidSetting`."""
     default = ""
     ports: dict[str, tuple[str, ...]] = {}
     for text in texts:
@@ -171,9 +171,7 @@ def parse_middlewares(texts: Iterable[str]) -> tuple[str, dict[str, tuple[str, .
         if not all(MIDDLEWARE.fullmatch(name) for name in middlewares) or (
             not separator and len(middlewares) > 1
         ):
-            raise InvalidSetting(
-                f"`{text:.80}` is not a middleware; write the name of one, or PORT=NAME,NAME"
-            )
+            raise InvalidSetting(f"`{text:.80}` is not a middleware; write NAME, or PORT=NAME,NAME")
         if separator:
             ports[port] = middlewares
         else:
@@ -227,6 +225,12 @@ def parse_transport_settings(texts: Iterable[str]) -> dict[tuple[str, str], str]
             )
         parsed[middleware, name] = value
     return parsed
+
+
+def with_defaults(defaults: Sequence[str], written: Sequence[str]) -> list[str]:
+    """The items `PORT=…` of a command line, and the defaults of ports that it does not mention."""
+    ports = {re.split(r"[=/]", text, maxsplit=1)[0] for text in written}
+    return [*(d for d in defaults if re.split("[=/]", d, maxsplit=1)[0] not in ports), *written]
 
 
 def parse_connections(texts: Iterable[str]) -> dict[str, tuple[str, ...]]:

@@ -42,6 +42,8 @@ class ComponentSpec:
     """One component. `period` in ms, 0: `compute` is not called; `threads` run at a time.
 
     `watchdog`: after so many seconds a callback that has not returned hangs; 0: no watchdog.
+    `connections`, `addresses` and `qualities` are as after `--connect`, `--address` and `--qos`; the
+    command line overrides them for each port.
     """
 
     name: str
@@ -56,6 +58,9 @@ class ComponentSpec:
     version: str = ""
     machine: MachineSpec | None = None
     watchdog: float = 0.0
+    connections: tuple[str, ...] = ()
+    addresses: tuple[str, ...] = ()
+    qualities: tuple[str, ...] = ()
 
     @property
     def ports(self) -> tuple[ServedPort | CalledPort, ...]:

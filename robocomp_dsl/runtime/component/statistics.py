@@ -12,23 +12,28 @@ import numpy as np
 
 TIMING_INTERVAL = 4
 """One in this many calls is timed: reading the clock twice is a large part of a call's cost."""
+BRIEF_NS = 20_000
+"""Calls that take less are brief; of them, one in `BRIEF_TIMING_INTERVAL` is timed."""
+BRIEF_TIMING_INTERVAL = 32
 WINDOW = 512
 """Number of latest durations over which percentiles are computed."""
 
 
 class Durations:
-    """The latest durations in ns, and how many there were."""
+    """The latest durations in ns, and how many there were; one in `interval` calls is timed."""
 
-    __slots__ = ("_latest", "count")
+    __slots__ = ("_latest", "count", "interval")
 
     def __init__(self) -> None:
         self._latest = [0] * WINDOW
         self.count = 0
+        self.interval = TIMING_INTERVAL
 
     def add(self, nanoseconds: int) -> None:
         """Add a duration."""
         self._latest[self.count % WINDOW] = nanoseconds
         self.count += 1
+        self.interval = TIMING_INTERVAL if nanoseconds > BRIEF_NS else BRIEF_TIMING_INTERVAL
 
     def milliseconds(self, *percents: float) -> tuple[float, ...]:
         """Percentiles of the latest durations in ms; zeros without any."""

@@ -27,7 +27,7 @@ class ThreadPriority:
         self.priority = priority or 0
 
     def apply(self, thread: int = 0) -> bool:
-        """Set the priority of a thread by its native id, 0: this one; returns whether it is set."""
+        """Set the priority of a thread by its native id, 0: this thread; returns the success."""
         reason = set_scheduling(thread, self.priority)
         if reason:
             key = f"{self._port} {self.priority}"

@@ -17,7 +17,7 @@ from robocomp_dsl.runtime.component.user_errors import log_failure
 
 Hook: TypeAlias = Callable[..., None]
 MAX_PENDING = 1000
-"""Events that wait while a callback of the component hangs; further ones are not delivered."""
+"""Events that wait while a callback of the component hangs; further events are not delivered."""
 
 
 class ConnectionEvents:
@@ -82,7 +82,7 @@ class ConnectionEvents:
         return event
 
     def close(self) -> None:
-        """Call no further hook; one that runs may finish."""
+        """Call no further hook; a running hook may finish."""
         with self._lock:
             self._closed = True
             self._events.put(None)

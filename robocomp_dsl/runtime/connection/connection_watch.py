@@ -87,7 +87,7 @@ class WatchedSubscription:
 
 
 class ConnectionWatch:
-    """The watched subscriptions of one component. The thread starts with the first one."""
+    """The watched subscriptions of one component. The thread starts with the first subscription."""
 
     def __init__(self, presence: Presence, events: ConnectionEvents, component: str) -> None:
         self.presence = presence

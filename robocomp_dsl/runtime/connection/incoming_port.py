@@ -10,7 +10,6 @@ from __future__ import annotations
 import logging
 from collections import deque
 from collections.abc import Callable, Mapping
-from functools import partial
 from threading import get_ident
 from time import perf_counter_ns
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -18,10 +17,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.component.receiver import LeaderFollowerQueue, QueueClosed
-from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL, OperationCounts, Statistics
+from robocomp_dsl.runtime.component.statistics import OperationCounts, Statistics
 from robocomp_dsl.runtime.component.thread_priority import ThreadPriority
 from robocomp_dsl.runtime.component.user_errors import log_failure
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.message_stamp import with_header_stamp
 from robocomp_dsl.runtime.connection.ports import OperationCallable
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, RejectedByReceiver, Timeout
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 Handle: TypeAlias = Callable[[tuple[Any, ...]], Any]
 """Calls the handler with a tuple of arguments; returns its result, raises what it raises."""
 MAX_PENDING_NUMBERS = 32
-"""Numbers are evaluated in batches: this takes a fifth of the time of one by one."""
+"""Numbers are evaluated in batches: this takes a fifth of the time."""
 log = logging.getLogger("robocomp")
 
 
@@ -66,27 +66,25 @@ class IncomingOperation:
         self.losses = losses
         self.numbers: deque[bytes] = losses.pending if losses else deque(maxlen=1)
         self.counts: OperationCounts = port.statistics.of(port.at.port, operation.name)
-        self._handler = handler
-        self.handle: Handle = self.handle_within(None)
+        self._handler = with_header_stamp(operation, handler)
+        self.handle: Handle = self._handle()
 
-    def handle_within(self, timeout: float | None) -> Handle:
+    def _handle(self) -> Handle:
         """A function that calls the handler, and counts and times the call.
 
-        It raises `Timeout` if the callback group has no slot within `timeout` s. Code that runs for
-        every message uses local names and is inlined: its thread has just been woken, and its
-        caches are cold.
+        Code that runs for every message uses local names and is inlined: its thread has just been
+        woken, and its caches are cold.
         """
         counts, group, handler = self.counts, self._port.callback_group, self._handler
-        acquire = group.acquire if timeout is None else partial(group.acquire, True, timeout)
-        release, holders = group.release, group.holders
+        durations = counts.durations
+        acquire, release, holders = group.acquire, group.release, group.holders
         process = self.losses.process if self.losses else None
         numbers = self.numbers
 
         def handle(arguments: tuple[Any, ...]) -> Any:
             counts.calls += 1
-            if counts.calls % TIMING_INTERVAL:
-                if not acquire():
-                    raise Timeout(f"{self._port.at.name} was busy for {timeout} s")
+            if counts.calls % durations.interval:
+                acquire()
                 holders[get_ident()] = perf_counter_ns()
                 try:
                     return handler(*arguments)
@@ -94,17 +92,55 @@ class IncomingOperation:
                     holders.pop(get_ident(), None)
                     release()
             start = perf_counter_ns()
-            if not acquire():
-                raise Timeout(f"{self._port.at.name} was busy for {timeout} s")
+            acquire()
             holders[get_ident()] = perf_counter_ns()
             try:
                 return handler(*arguments)
             finally:
                 holders.pop(get_ident(), None)
                 release()
-                counts.durations.add(perf_counter_ns() - start)
+                durations.add(perf_counter_ns() - start)
                 if process is not None and len(numbers) > MAX_PENDING_NUMBERS:
                     process()
+
+        return handle
+
+    def handle_for_caller(
+        self,
+        timeout: float,
+        convert: Callable[[BaseException], BaseException],
+        closed_error: type[Exception],
+    ) -> Handle:
+        """A function that calls the handler in the thread of its caller.
+
+        It raises `Timeout` if the callback group has no slot within `timeout` s, `closed_error` if
+        the port was closed, and `convert(error)` for an error of the handler.
+        """
+        counts, port, handler = self.counts, self._port, self._handler
+        group = port.callback_group
+        acquire, release, holders = group.acquire, group.release, group.holders
+        durations = counts.durations
+
+        def handle(arguments: tuple[Any, ...]) -> Any:
+            if port.closed:
+                raise closed_error
+            calls = counts.calls + 1
+            counts.calls = calls
+            start = 0 if calls % durations.interval else perf_counter_ns()
+            # The second `acquire` parses its arguments: slower than the first.
+            if not (acquire(False) or acquire(True, timeout)):
+                raise Timeout(f"{port.at.name} was busy for {timeout:g} s")
+            me = get_ident()
+            holders[me] = perf_counter_ns()
+            try:
+                return handler(*arguments)
+            except BaseException as error:
+                raise convert(error)  # noqa: B904 - `convert` sets the cause
+            finally:
+                del holders[me]
+                release()
+                if start:
+                    durations.add(perf_counter_ns() - start)
 
         return handle
 
@@ -139,7 +175,10 @@ class IncomingOperation:
 
 
 class IncomingPort:
-    """One served or subscribed port of a component on one middleware."""
+    """One served or subscribed port of a component on one middleware.
+
+    A transport whose callers call the handlers directly sets `closed` when it closes the port.
+    """
 
     def __init__(
         self,
@@ -154,6 +193,7 @@ class IncomingPort:
         self.callback_group = callback_group
         self.statistics = statistics
         self.fail = fail
+        self.closed = False
         self.operations: dict[str, IncomingOperation] = {}
         for operation in at.interface.operations:
             if operation.name in handlers:

@@ -16,7 +16,7 @@ from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation
 
 _MIN_IDLE_S = 0.001
-"""A message that comes sooner after the one before was in the queue already."""
+"""A message that comes sooner after its predecessor was in the queue already."""
 MIN_CHECK_S = 0.001
 
 

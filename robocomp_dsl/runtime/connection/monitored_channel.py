@@ -1,4 +1,7 @@
-"""The calling side of a monitored connection. In: a channel. Out: one that monitors each call."""
+"""The calling side of a monitored connection.
+
+In: a channel. Out: a channel that monitors each call.
+"""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ class _Hooks(NamedTuple):
 
 
 class MonitoredConnection:
-    """One end of a connection. `peer` is the other end, `port` this one, as `component.Port`.
+    """One end of a connection. `peer` is the other end, `port` this end, as `component.Port`.
 
     `lock` is shared by all connections of an arbitrated input: one message is judged at a time.
     """
@@ -78,7 +78,7 @@ class MonitoredConnection:
                 self.is_closed = True
 
     def destroy(self) -> None:
-        """Destroy the monitors, the last one first."""
+        """Destroy the monitors, the last monitor first."""
         with self._lock:
             for monitor in reversed(self.monitors):
                 monitor.destroy()

@@ -61,7 +61,7 @@ class PublisherWatch:
             self._on_changed(name, True)
 
     def check(self, now: float, latest_message: float) -> float:
-        """Probe silent publishers and report lost ones; returns when to check again."""
+        """Probe silent publishers and report lost publishers; returns when to check again."""
         if not self.liveliness or not self._publishers:
             return math.inf
         with self._lock:

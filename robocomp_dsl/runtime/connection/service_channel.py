@@ -13,7 +13,7 @@ from time import perf_counter_ns
 from typing import Any, TypeAlias
 
 from robocomp_dsl.runtime.component.interface import Operation, Pattern
-from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL, OperationCounts
+from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.connection.server_selector import ServerSelector
@@ -92,14 +92,16 @@ class ServiceChannel:
         group, registry = self._context.callback_group, self._registry
         acquire, release = group.acquire, group.release
         holders, handoffs = group.holders, group.handoffs
+        durations = counts.durations
         version = -1
         encode: Any = None
         send: Any = None
 
         def query(*arguments: Any) -> Any:
             nonlocal version, encode, send
-            counts.calls += 1
-            start = 0 if counts.calls % TIMING_INTERVAL else perf_counter_ns()
+            calls = counts.calls + 1
+            counts.calls = calls
+            start = 0 if calls % durations.interval else perf_counter_ns()
             began = 0
             me = get_ident()
             try:
@@ -109,12 +111,11 @@ class ServiceChannel:
                     version = seen  # set last: without a server, the next call searches again
                 data = encode(arguments) if encode else arguments
                 # As `group.pause` and `resume`, which would take as long as the rest.
-                began = holders.pop(me, 0)
-                if began:
+                if me in holders:
+                    began = holders.pop(me)
                     release()
-                    handoff = handoffs.get(me)
-                    if handoff:
-                        handoff()
+                    if me in handoffs:
+                        handoffs[me]()
                 try:
                     result = send(data)
                 except ServerLost:
@@ -127,7 +128,7 @@ class ServiceChannel:
                     acquire()
                     holders[me] = began
             if start:
-                counts.durations.add(perf_counter_ns() - start)
+                durations.add(perf_counter_ns() - start)
             return result
 
         return query
@@ -150,9 +151,11 @@ class ServiceChannel:
             except ServerLost:
                 counts.failures += 1
                 paused = group.pause()
-                self._wait_until_lost()
-                if paused:
-                    group.resume(paused)
+                try:
+                    self._wait_until_lost()
+                finally:
+                    if paused:
+                        group.resume(paused)
                 raise self._server_lost(operation) from None
             except BaseException:
                 counts.failures += 1

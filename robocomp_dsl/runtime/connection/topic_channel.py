@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from robocomp_dsl.runtime.component.interface import Operation
+from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.latched_messages import LatchedMessages
 from robocomp_dsl.runtime.connection.peer_selection import matches
@@ -79,6 +80,8 @@ class TopicChannel:
         """The publication on one middleware; `replace_publishers` binds it again."""
         port = self._ports[index]
         counts = self._context.statistics.of(self._at.port, operation.name)
+        # A publication on several middlewares counts once.
+        calls = counts if index == 0 else OperationCounts(self._at.port, operation.name)
         encode: Any
         send: Any
         encode, send = port.publisher.bind(operation, counts)
@@ -95,7 +98,7 @@ class TopicChannel:
 
             def publish_plain(*arguments: Any) -> None:
                 send(encode(arguments), b"")
-                counts.calls += 1
+                calls.calls += 1
 
             return publish_plain
         publisher_id, sequence = numbers.id, numbers.counter(operation.name)
@@ -104,7 +107,7 @@ class TopicChannel:
         def publish(*arguments: Any) -> None:
             data = encode(arguments)
             send(data, pack(publisher_id, next(sequence)))
-            counts.calls += 1
+            calls.calls += 1
 
         return publish
 
@@ -136,7 +139,7 @@ class TopicChannel:
                 port.publisher.attach(record)
             for rebind in self._rebind:
                 rebind()
-        # A thread may still be publishing with a former one: it is closed with the channel.
+        # A thread may still be publishing with a former publisher: it is closed with the channel.
         self._retired += former
         for publisher in former:
             for _, record in list(self._attached):
@@ -179,7 +182,7 @@ class TopicChannel:
         return current
 
     def _is_subscriber(self, record: PortRecord) -> bool:
-        """Whether a port on the same middleware subscribes to this one."""
+        """Whether a port on the same middleware subscribes to this port."""
         at = Endpoint(self._at.interface, record.component, record.port, record.peers)
         return (
             any(port.middleware == record.middleware for port in self._ports)

@@ -4,7 +4,7 @@ In: a struct class whose leaves are numbers, bools and enums. Out: `RowLayout`.
 
 In XCDR1 every leaf is aligned to its size, counted from the start of the message; a struct has no
 alignment or padding of its own. So after the first element, which may start at another residue,
-all elements have the same layout and stride, and the last one has no trailing padding. The numpy
+all elements have the same layout and stride, and the last has no trailing padding. The numpy
 dtype has that layout, so elements are copied as one block.
 """
 
@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import Any, TypeGuard
 
 import numpy as np
@@ -91,6 +92,16 @@ def row_layout(element: type[Struct]) -> RowLayout:
         # The count before the first element ends at a multiple of 4.
         direct=solid and residue == 0 and (alignment <= 4 or first == alignment),
     )
+
+
+@once
+def packed_layout(element: type[Struct]) -> RowLayout:
+    """The layout of a sequence of `element` on a wire without padding. Raises as `row_layout`."""
+    leaves = row_layout(element).leaves
+    ends = list(accumulate(leaf.primitive.size for leaf in leaves))
+    offsets, size = (0, *ends[:-1]), ends[-1]
+    dtype = _dtype(element, iter(offsets), size)[0]
+    return RowLayout(dtype, leaves, offsets, 0, 1, size, size, direct=True)
 
 
 def _leaves(type_: Type, path: tuple[str, ...]) -> Iterator[Leaf]:

@@ -62,7 +62,8 @@ class MiddlewareDescription:
     a component; see `middleware.configured`. `tcp_ports` is a function, as `module:function`, from
     the address of an own port to the TCP ports of this machine where it listens. `connector` is a
     function without arguments, as `module:function`, that opens an `ExternalConnector`; needed if
-    the capabilities have `external_port_names`.
+    the capabilities have `external_port_names`. `address_problem` is a function, as
+    `module:function`, from an address to what is wrong with it, "" for nothing.
     """
 
     name: str
@@ -74,3 +75,4 @@ class MiddlewareDescription:
     configuration: str = ""
     tcp_ports: str = ""
     connector: str = ""
+    address_problem: str = ""

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from robocomp_dsl.runtime.middleware.transport import Transport, TransportContext
 
 ENTRY_POINT_GROUP = "robocomp_dsl.middleware"
-BUILT_IN = ("dds", "ice", "inproc", "local", "rmw_zenoh", "ros2", "yarp", "zenoh")
+BUILT_IN = ("dds", "ice", "inproc", "local", "rmw_zenoh", "ros1", "ros2", "yarp", "zenoh")
 DEFAULT = "zenoh"
 """The middleware of a component that names none."""
 _broken: dict[str, str] = {}

@@ -91,7 +91,7 @@ class ServiceClient(Protocol):
         """Limit the calls of operations that are bound from now on."""
 
     def cancel(self) -> None:
-        """End all calls that wait and all later ones with `ServerLost`; called from any thread."""
+        """End all calls that wait and all later calls with `ServerLost`; called from any thread."""
 
     def close(self) -> None:
         """Release the connection."""

@@ -108,7 +108,7 @@ class PortRegistry:
     def wait(
         self, role: str, interface: str, fits: Callable[[PortRecord], bool], seconds: float
     ) -> list[PortRecord]:
-        """The matching ports, waiting at most `seconds` for the first one."""
+        """The matching ports, waiting at most `seconds` for the first port."""
 
         def fitting() -> list[PortRecord]:
             return [record for record in self._matching(role, interface) if fits(record)]

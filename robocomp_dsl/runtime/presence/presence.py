@@ -72,7 +72,7 @@ class Presence(Protocol):
         """The `PublisherRegistry` of the domain; None if this presence counts no publications."""
 
     def answer_probes(self) -> None:
-        """Let other components ask this one for a sign of life; it has publishers."""
+        """Let other components ask this component for a sign of life; it has publishers."""
 
     def probe(self, component: str, timeout: float, on_reply: Callable[[], None]) -> None:
         """Ask a component for a sign of life; `on_reply` is called in any thread, or never."""

@@ -72,7 +72,7 @@ class ProcessPresence:
         return sorted({record.component for record in found})
 
     def publish_state(self, state: str) -> None:
-        """No effect: other processes cannot monitor this one."""
+        """No effect: other processes cannot monitor this process."""
 
     def number_publications(self, at: Endpoint) -> ProcessNumbers:  # noqa: ARG002 - see Presence
         """See `Presence`."""

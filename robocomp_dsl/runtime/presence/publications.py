@@ -22,7 +22,7 @@ from robocomp_dsl.runtime.presence import keys
 from robocomp_dsl.runtime.presence.sequence_format import SEQUENCE_FORMAT
 
 COUNT_TIMEOUT_S = 0.2
-"""A publisher replies within a millisecond; one that hangs is not waited for."""
+"""A publisher replies within a millisecond; a hanging publisher is not waited for."""
 _ALL_REPLIES: dict[str, Any] = {
     "timeout": COUNT_TIMEOUT_S,
     "target": zenoh.QueryTarget.ALL,
@@ -89,7 +89,7 @@ class PublisherRegistry:
             self.counts_at_discovery.setdefault(key, published.number)
 
     def current_counts(self) -> list[PublishedCount]:
-        """How many messages each publisher has published; hanging ones are left out."""
+        """How many messages each publisher has published; hanging publishers are left out."""
         try:
             key = f"{keys.domain_prefix(self._domain)}/n/**"
             return list(_published_counts(self._session.get(key, **_ALL_REPLIES)))

@@ -1,7 +1,8 @@
 """The tree of an IDSL file: modules with their types, exceptions and interfaces.
 
-ROS definitions (`.msg`, `.srv`, `.action`) have the same tree: a module of structs. Only they have
-arrays, constants and bounded strings.
+Definitions of ROS (`.msg`, `.srv`, `.action`) and YARP (`.thrift`, `.bottle`) have the same tree.
+Only those of ROS have arrays and bounded strings, only those of Thrift other names of types and
+interfaces that extend another one; both have constants.
 """
 
 from __future__ import annotations
@@ -78,19 +79,32 @@ class Enum(Node):
 
 
 class Sequence(Node):
-    """`sequence<element> Name;`."""
+    """`sequence<element> Name;`.
+
+    `is_implicit`: it stands for Thrift's `list<element>`, which has no name in its file.
+    """
 
     name: Name
     element: QualifiedName
     doc: str = ""
+    is_implicit: bool = False
 
 
 class Dictionary(Node):
-    """`dictionary<key, value> Name;`."""
+    """`dictionary<key, value> Name;`; `is_implicit` as for a sequence: `map<key, value>`."""
 
     name: Name
     key: QualifiedName
     value: QualifiedName
+    doc: str = ""
+    is_implicit: bool = False
+
+
+class Alias(Node):
+    """`typedef i32 Port` in a Thrift definition: another name of a type."""
+
+    name: Name
+    target: QualifiedName
     doc: str = ""
 
 
@@ -98,13 +112,14 @@ class Param(Node):
     """A parameter of an operation.
 
     A parameter without a name (legacy syntax) is called `arg1`, `arg2`, … by its position; the span
-    of its name is that of the type.
+    of its name is that of the type. Only arguments of a Thrift service have defaults.
     """
 
     type: QualifiedName
     name: Name
     out: bool = False
     unit: Unit | None = None
+    default: Literal | None = None
 
 
 class Operation(Node):
@@ -124,23 +139,28 @@ class Operation(Node):
 
 
 class Interface(Node):
-    """`interface Name { operations };`."""
+    """`interface Name { operations };`; `base` is the A of Thrift's `service B extends A`."""
 
     name: Name
     operations: tuple[Operation, ...]
     doc: str = ""
+    base: QualifiedName | None = None
 
 
-Declaration: TypeAlias = Struct | ExceptionDecl | Enum | Sequence | Dictionary | Interface
+Declaration: TypeAlias = Struct | ExceptionDecl | Enum | Sequence | Dictionary | Alias | Interface
 
 
 class Module(Node):
-    """`module Name { declarations };`; `is_ros`: a ROS definition, with ROS's built-in types."""
+    """`module Name { declarations };`.
+
+    `origin` is the language of an imported definition, "ros", "thrift" or "bottle", else ""; these
+    have the built-in types of ROS.
+    """
 
     name: Name
     declarations: tuple[Declaration, ...]
     doc: str = ""
-    is_ros: bool = False
+    origin: str = ""
 
 
 class File(Node):

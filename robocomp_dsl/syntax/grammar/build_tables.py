@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import Any
 
 from lark import Lark
@@ -20,7 +20,7 @@ from lark.parsers.lalr_analysis import Shift
 from robocomp_dsl.resources import GRAMMARS
 from robocomp_dsl.syntax.grammar.grammar_file import END, fingerprint
 
-LANGUAGES = ("idsl", "cdsl", "pdsl", "ddsl", "smdsl")
+LANGUAGES = ("idsl", "cdsl", "pdsl", "ddsl", "smdsl", "bdsl")
 XML = "innermodel"
 START = "start"
 _WORD = re.compile(r"[A-Za-z_]\w*")
@@ -74,7 +74,7 @@ def build_tables(language: str) -> dict[str, Any]:
         "keywords": {w.lower() if any_case else w: t.name for w, t in keywords.items()},
         "texts": {t.name: t.pattern.value for t in grammar.terminals if _is_text(t)}
         | {"_SEMI": ";"},
-        "scanner": _scanner(),
+        "scanner": _scanner(grammar.terminals),
         "rules": [_rule(rule) for rule in grammar.rules],
         "actions": actions,
         "gotos": gotos,
@@ -105,17 +105,20 @@ def _numbering(states: dict[int, dict[str, Any]], start: int) -> dict[int, int]:
     return order
 
 
-def _scanner() -> str:
-    """One regular expression for the tokens of all languages; the matching group is the terminal.
+def _scanner(own: Collection[TerminalDef]) -> str:
+    """One regular expression for the tokens of a language; the matching group is the terminal.
 
-    Compiling it takes as long as parsing two hundred lines, so all languages share it.
+    Compiling it takes as long as parsing two hundred lines, so all languages share it, except one
+    that defines a terminal of `terminals.lark` itself.
     """
     shared = (GRAMMARS / "terminals.lark").read_text(encoding="utf-8")
     names = [name for name in re.findall(r"^(\w+)[.\d]*:", shared, re.MULTILINE) if name != "WS"]
     used = f"%import .terminals ({', '.join(names)})\nstart: ({' | '.join(names)})*"
     terminals = Lark(used, parser="lalr", import_paths=[str(GRAMMARS)]).terminals
     ranked = sorted(terminals, key=lambda terminal: -terminal.priority)
-    groups = _FIRST | {t.name: t.pattern.to_regexp() for t in ranked} | _MISSPELT | _LAST
+    tokens = {t.name: t.pattern.to_regexp() for t in ranked}
+    tokens |= {t.name: t.pattern.to_regexp() for t in own if t.name in tokens}
+    groups = _FIRST | tokens | _MISSPELT | _LAST
     return r"\s*(?:" + "|".join(f"(?P<{name}>{regexp})" for name, regexp in groups.items()) + ")"
 
 

@@ -9,8 +9,9 @@ from typing import Any
 
 from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast import ddsl as ast
-from robocomp_dsl.syntax.ast.base import Duration, Name, Number, QualifiedName, Text
-from robocomp_dsl.syntax.languages.builder import BlockSetting, Builder, literal, of_kind
+from robocomp_dsl.syntax.ast.base import Name, Number, QualifiedName, Text
+from robocomp_dsl.syntax.languages.builder import BlockSetting, literal, of_kind
+from robocomp_dsl.syntax.languages.qos import QosBuilder
 
 POSITIONS = ("sender", "receiver")
 """Where a monitor runs."""
@@ -18,10 +19,8 @@ POSITIONS = ("sender", "receiver")
 FAILURE_POLICIES = ("bypass", "close")
 """What a connection does when its monitor fails."""
 
-_KEEPS = ("depth", "keep_all")
 
-
-class ConnectionsBuilder(Builder):
+class ConnectionsBuilder(QosBuilder):
     """The part of the DDSL builder for connections."""
 
     def connection(
@@ -58,45 +57,8 @@ class ConnectionsBuilder(Builder):
         return ast.PortRef(span, instance, port)
 
     def connection_body(self, span: Span, *items: Any) -> tuple[list[Any], Span]:
-        """`reliable; depth 1;`; a second length of the queue is reported and left out."""
-        length: BlockSetting | None = None
-        valid: list[Any] = []
-        for item in items:
-            if isinstance(item, BlockSetting) and item.field in _KEEPS:
-                first = length
-                length = self.first_of(length, item, "the length of the queue")
-                if first is not None:
-                    continue
-            valid.append(item)
-        return valid, span
-
-    def reliability(self, span: Span, word: Name) -> BlockSetting:
-        """`reliable;` or `best_effort;`."""
-        return BlockSetting(span, "reliability", word)
-
-    def priority(self, span: Span, word: Name) -> BlockSetting:
-        """`priority high;`."""
-        return BlockSetting(span, "priority", word)
-
-    def depth(self, span: Span, value: Number) -> BlockSetting:
-        """`keep last 1;`, or `depth 1;`."""
-        return BlockSetting(span, "depth", value)
-
-    def keep_all(self, span: Span, word: Name) -> BlockSetting:
-        """`keep all;`."""
-        return BlockSetting(span, "keep_all", word)
-
-    def latched(self, span: Span, word: Name) -> BlockSetting:
-        """`latched;`."""
-        return BlockSetting(span, "latched", word)
-
-    def deadline(self, span: Span, value: Duration) -> BlockSetting:
-        """`deadline 40 ms;`."""
-        return BlockSetting(span, "deadline", value)
-
-    def liveliness(self, span: Span, value: Duration) -> BlockSetting:
-        """`liveliness 500 ms;`."""
-        return BlockSetting(span, "liveliness", value)
+        """`reliable; depth 1;`."""
+        return self.without_second_length(items), span
 
     def thread_priority(self, span: Span, value: Number) -> BlockSetting:
         """`thread priority 20;`."""

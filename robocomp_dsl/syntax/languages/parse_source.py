@@ -21,6 +21,7 @@ _HEADS = {
     "component": ("cdsl", "a component description"),
     "componentparams": ("pdsl", "a parameter description"),
     "deployment": ("ddsl", "a deployment description"),
+    "bridge": ("bdsl", "a bridge"),
 }
 _PAGE = re.compile(
     r"\s*(<!DOCTYPE html\b[^>\n]*>?|<html\b[^>\n]*>?|\d{3}: Not Found)", re.IGNORECASE

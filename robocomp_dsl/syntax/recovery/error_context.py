@@ -65,9 +65,11 @@ class ErrorContext(ValueRecord):
         return self.count_accepted([*put, *rest]) - len(put)
 
     def accepted_terminals(self) -> list[str]:
-        """The terminals that are accepted next."""
+        """The terminals that are accepted next; a keyword only if it is not read as a name."""
         return [
-            kind for kind in self.tables.actions[self.states[-1]] if self.count_accepted((kind,))
+            kind
+            for kind in self.tables.actions[self.states[-1]]
+            if self._shift(list(self.states), kind, as_name=False)
         ]
 
     def starts_line(self) -> bool:
@@ -127,12 +129,12 @@ class ErrorContext(ValueRecord):
             states = accepted[1]
         return kinds
 
-    def _shift(self, states: list[int], kind: str) -> bool:
+    def _shift(self, states: list[int], kind: str, *, as_name: bool = True) -> bool:
         actions, words = self.tables.actions, self.tables.keyword_terminals
         while True:
             row = actions[states[-1]]
             action = row.get(kind)
-            if action is None and kind in words:
+            if action is None and as_name and kind in words:
                 action = name_action(row, kind)
             if action is None:
                 return False

@@ -89,7 +89,8 @@ def _accepted_punctuation(context: ErrorContext, accepted: list[str]) -> list[tu
     """Terminal and text of the accepted punctuation, often missing ones first."""
     texts = {context.tables.terminal_texts.get(kind, ""): kind for kind in accepted}
     optional = "_SEMI" in accepted
-    return [(texts[t], t) for t in _OFTEN_MISSING if t in texts and not (t == "=" and optional)]
+    often = (*_OFTEN_MISSING, "}") if context.lookahead[0].kind == "_SEMI" else _OFTEN_MISSING
+    return [(texts[t], t) for t in often if t in texts and not (t == "=" and optional)]
 
 
 def wrong_bracket(context: ErrorContext, accepted: list[str]) -> Iterator[Repair]:

@@ -16,6 +16,7 @@ from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax.ast import idsl as ast
 from robocomp_dsl.syntax.ast.base import Import, Name, QualifiedName, Text, Unit
 from robocomp_dsl.syntax.codes import ros as codes
+from robocomp_dsl.syntax.comment_units import unit_in
 from robocomp_dsl.syntax.ros.kinds import ROS_PARTS
 from robocomp_dsl.syntax.ros.lines import DefinitionLine, Section, read_sections
 from robocomp_dsl.syntax.ros.values import parse_items, parse_value
@@ -40,12 +41,6 @@ _ROS1 = {
 }
 """Types that ROS 1 definitions name without a package."""
 _UNSUPPORTED = ("wstring", "wchar", "float128")
-_SYMBOLS = ("m", "s", "rad", "deg", "Hz", "N", "Nm", "V", "A", "Ah", "Pa", "T", "kg", "px")
-_RATES = ("m/s", "m/s^2", "rad/s", "rad/s^2")
-_WORDS = {"meters": "m", "seconds": "s", "radians": "rad", "degrees": "deg"}
-_UNITS = {unit: unit for unit in (*_SYMBOLS, *_RATES)} | _WORDS
-"""Words in brackets that are units in comments of ROS definitions."""
-_BRACKETS = re.compile(r"\[([^\[\]]+)\]")
 
 
 def definition_name(path: Path) -> tuple[str, str, str]:
@@ -88,7 +83,7 @@ class _Builder:
         span = self._source.span(0, size)
         # Not where the first struct is: positions identify declarations.
         name = Name(self._source.span(size, size), self._package)
-        module = ast.Module(span, name, tuple(structs), is_ros=True)
+        module = ast.Module(span, name, tuple(structs), origin="ros")
         return ast.File(span, tuple(self._imports.values()), (module,), not self._failed)
 
     def _check_sections(self, sections: list[Section], expected: int) -> None:
@@ -143,14 +138,15 @@ class _Builder:
         items = parse_items(rest, type_.text) if array else ()
         if items is None:
             self._add(rest, "the default of an array is a list, such as `[1, 2]`")
-        unit, doc = _unit(name, statement.doc) if type_.text in NUMBERS else (None, statement.doc)
+        is_number = type_.text in NUMBERS
+        unit, doc = unit_in(statement.doc) if is_number else ("", statement.doc)
         default = parse_value(rest, type_.text) if found["rest"] and not array else None
         return ast.Field(
             span,
             type_,
             name,
             default,
-            unit,
+            Unit(name.span, unit) if unit else None,
             doc,
             array,
             string_bound,
@@ -229,12 +225,3 @@ class _Builder:
     def _add(self, span: Span, message: str, help_: str = "", fix: Fix | None = None) -> None:
         self._failed = True
         self._report.add(codes.ROS_STATEMENT, span, message, help=help_, fix=fix)
-
-
-def _unit(name: Name, doc: str) -> tuple[Unit | None, str]:
-    """The unit that a comment has in brackets, as `[rad]`, and the comment without it."""
-    for found in _BRACKETS.finditer(doc):
-        if unit := _UNITS.get(found[1].strip()):
-            rest = doc[: found.start()].rstrip() if found.end() == len(doc) else doc
-            return Unit(name.span, unit), rest
-    return None, doc

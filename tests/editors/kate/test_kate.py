@@ -53,6 +53,11 @@ CASES = [
         "keyword:connect operator:. operator:-> operator:. keyword:depth number:1",
     ),
     ("smdsl", "on => over on after;", "operator:=> blue:on"),
+    (
+        "bdsl",
+        "rate 50 Hz; rate = f(a) to [rad];",
+        "keyword:rate number:50  unit:Hz operator:= function:f blue:to unit:[rad]",
+    ),
 ]
 
 

@@ -55,6 +55,17 @@ CASES = [
         "Statement:=> Statement:on Statement:after Constant:2 Special:min",
     ),
     ("smdsl", ":game parallel {", "Statement:: Statement:parallel"),
+    (
+        "bdsl",
+        'input left : double[3] [deg] over yarp at "/a";',
+        "Type:input Identifier:left Statement:: Type:double Constant:[3] Special:[deg]"
+        ' Statement:over Statement:at Constant:"/a"',
+    ),
+    (
+        "bdsl",
+        "rate = f(a[0] to [rad]) * -2;",
+        "Statement:= Identifier:f Constant:[0] Statement:to Special:[rad] Statement:* Constant:-2",
+    ),
 ]
 
 

@@ -21,6 +21,7 @@ FRAMES = {
     "pdsl": ("ComponentParams p\n{\n", "\n};\n"),
     "ddsl": ("Deployment d\n{\n", "\n};\n"),
     "smdsl": ("", ""),
+    "bdsl": ("Bridge b\n{\n", "\n};\n"),
 }
 """What surrounds a snippet that is not a file by itself; `DEEPER`: where it is another place."""
 
@@ -36,6 +37,7 @@ DEEPER = {
     ),
     ("ddsl", "Import"): ("", "\nDeployment d\n{\n    component c;\n};\n"),
     ("ddsl", "Set"): ("Deployment d\n{\n    component c {\n", "\n    };\n};\n"),
+    ("bdsl", "Import"): ("", "\nBridge b\n{\n    input a : int;\n};\n"),
     ("smdsl", "Transition"): (
         "m\n{\n    initial_state from;\n    states to;\n    transitions\n    {\n",
         "\n    };\n};\n",
@@ -45,7 +47,7 @@ DEEPER = {
         "",
     ),
 }
-WHOLE = {"Module", "Component", "Parameters", "Deployment", "Machine"}
+WHOLE = {"Module", "Component", "Parameters", "Deployment", "Machine", "Bridge"}
 
 CASES = [
     (language, name)

@@ -52,7 +52,7 @@ def test_vsix_contains_no_other_files(content: dict[str, str]) -> None:
 def test_vsix_contributes_all_languages(manifest: dict[str, Any]) -> None:
     contributed = manifest["contributes"]
     languages = {item["id"]: item.get("extensions") for item in contributed["languages"]}
-    braces = ["idsl", "cdsl", "pdsl", "ddsl", "smdsl"]
+    braces = ["idsl", "cdsl", "pdsl", "ddsl", "smdsl", "bdsl"]
     assert languages == {
         **{brace: [f".{brace}"] for brace in braces},
         "scxml": [".scxml"],

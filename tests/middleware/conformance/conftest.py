@@ -1,7 +1,7 @@
 """Runs the suite over every installed middleware that connects components.
 
-`pytest tests/middleware/conformance --middleware NAME --deadline SECONDS` runs it for one, also for
-one of another distribution.
+`pytest tests/middleware/conformance --middleware NAME --deadline SECONDS` runs it for a
+middleware, also of another distribution.
 """
 
 from __future__ import annotations

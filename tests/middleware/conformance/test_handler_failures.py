@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.runtime.errors import RemoteError
+from robocomp_dsl.runtime.errors import RemoteError, Timeout
 from tests.middleware.network import Network
 from tests.support.waiting import wait_until
 
@@ -31,6 +31,7 @@ FAILURES = (
     GeneratorExit(),
     PlainBaseError("plain"),
     UnprintableError(),
+    Timeout("no reply to a call of the handler"),
 )
 
 

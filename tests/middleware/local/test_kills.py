@@ -127,7 +127,7 @@ def run_campaign(side: Open, folder: Path, kills: int, seed: int) -> None:
         threads = threading.active_count()
         for number in range(kills):
             campaign.round(roles[number % len(roles)])
-        # A new component deletes what the killed ones left.
+        # A new component deletes what the killed components left.
         side("new").serve(ALL_HANDLERS)
         wait_until(lambda: len(list(folder.iterdir())) == 4, lambda: str(list(folder.iterdir())))
         wait_until(

@@ -25,7 +25,7 @@ MODULES = {"sdk": "zenoh_ros2_sdk", "rclpy": "rclpy"}
 
 
 class PeerProcess:
-    """One peer; `program` is a module beside this one."""
+    """One peer; `program` is a module beside this module."""
 
     def __init__(self, program: str, *arguments: str) -> None:
         self._process = subprocess.Popen(

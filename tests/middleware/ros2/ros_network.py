@@ -26,12 +26,12 @@ _domain_ids = itertools.cycle(range(1, 100))
 
 
 def next_domain_id() -> int:
-    """A ROS domain; concurrent test processes start at different ones."""
+    """A ROS domain; concurrent test processes start at different domains."""
     return (next(_domain_ids) + os.getpid() * 7) % 100
 
 
 def open_router() -> tuple[zenoh.Session, str]:
-    """A router on a free loopback port, as `rmw_zenohd` is one; and its address."""
+    """A router on a free loopback port, as `rmw_zenohd`; and its address."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         address = f"tcp/127.0.0.1:{probe.getsockname()[1]}"

@@ -2,19 +2,32 @@
 
 from __future__ import annotations
 
+import pathlib
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from robocomp_dsl.runtime.errors import NoServer
+from robocomp_dsl.runtime import MessageStamp, message_stamp, publishing_stamp
+from robocomp_dsl.runtime.codec.bottle.text_reader import read_text
+from robocomp_dsl.runtime.errors import NoServer, RemoteError
 from robocomp_dsl.runtime.middleware.yarp.name_client import NameClient, NameServerLost
 from robocomp_dsl.runtime.middleware.yarp.name_server import NameServer
+from robocomp_dsl.runtime.middleware.yarp.outgoing import ask_admin
+from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost
 from tests.middleware.yarp.conftest import EVENTS, LOOPBACK, POSE, ROBOT, SCAN, Pose, YarpComponent
+from tests.middleware.yarp.sensor_messages import CAMERA, LEVELS, Image, image_of, pixels_of
+from tests.middleware.yarp.test_yarp_thrift import PATH, PATH_TEXT, check_calls
 from tests.middleware.yarp.test_yarp_transport import HANDLERS
-from tests.middleware.yarp.yarp_tools import Tools, free_port, needs_yarp
+from tests.middleware.yarp.thrift_types import DEMO, PATHS, DemoHandlers, Path
+from tests.middleware.yarp.yarp_tools import (
+    TIMEOUT_S,
+    Tools,
+    free_port,
+    needs_thrift_peer,
+    needs_yarp,
+)
 from tests.support.waiting import wait_until
 
 pytestmark = [pytest.mark.peers, needs_yarp]
@@ -22,7 +35,7 @@ Components = Callable[..., YarpComponent]
 
 
 @pytest.fixture(params=["yarpserver", "own"])
-def tools(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Tools]:
+def tools(request: pytest.FixtureRequest, tmp_path: pathlib.Path) -> Iterator[Tools]:
     """YARP's programs, with YARP's name server or ours."""
     number = free_port()
     opened = Tools(tmp_path, number)
@@ -178,3 +191,118 @@ def test_restarted_yarpserver_learns_the_ports_again(
     wait_until(lambda: names.query("/server/Robot/rpc:i"), ignoring=NameServerLost)
     output = tools.run("rpc", "/server/Robot/rpc:i", text="add 1 2\n").stdout
     assert "Response: [ok] 3\n" in output
+
+
+@needs_thrift_peer
+def test_component_calls_a_server_of_yarpidl_thrift(component: Components, tools: Tools) -> None:
+    tools.start("serve", "/demo", program="demo_peer")
+    client = component()
+    place = client.caller(DEMO, "place", "/demo")
+    wait_until(lambda: place() == 0, ignoring=NoServer)
+    check_calls(client, None, "/demo")
+    with pytest.raises(RemoteError):
+        client.caller(DEMO, "measure_path", "/demo")(Path())
+
+
+@needs_thrift_peer
+def test_client_of_yarpidl_thrift_calls_a_component(
+    component: Components, names: NameClient, tools: Tools
+) -> None:
+    served = DemoHandlers()
+    component("server").serve(DEMO, served.handlers())  # type: ignore[arg-type]
+    wait_until(lambda: names.query("/server/Demo/rpc:i"))
+    client = tools.start("call", "/server/Demo/rpc:i", program="demo_peer")
+    line = tools.line_of(client)
+    assert line == f"3 10 hey! {(1 << 40) + 1} 0.5 3 -150 zyx b z 5 6 2126\n"
+    assert tools.line_of(client) == f"{PATH_TEXT}\n"
+    wait_until(lambda: served.place == 7)
+
+
+@needs_thrift_peer
+def test_component_reads_a_struct_of_yarpidl_thrift(
+    component: Components, names: NameClient, tools: Tools
+) -> None:
+    received: list[Path] = []
+    component().subscribe(PATHS, received.append)
+    wait_until(lambda: names.query("/own/Paths:i"))
+    tools.start("publish", "/path:o", "/own/Paths:i", program="demo_peer")
+    wait_until(lambda: received == [PATH])
+
+
+def test_stamps_and_data_of_yarp(component: Components, names: NameClient, tools: Tools) -> None:
+    """A program of YARP writes what it reads: images, a Property, and envelopes."""
+    images: list[tuple[Image, MessageStamp]] = []
+    maps: list[tuple[dict[str, float], MessageStamp]] = []
+    own = component()
+    own.subscribe(CAMERA, lambda image: images.append((image, message_stamp())), "/mirror/Camera:o")
+    own.subscribe(LEVELS, lambda each: maps.append((each, message_stamp())), "/mirror/Levels:o")
+    push = own.publisher(CAMERA, "fast_tcp:/mirror/Camera:i")
+    levels = own.publisher(LEVELS, "/mirror/Levels:i")
+    mirror = tools.python(MIRROR)
+    readers = read_text("[list] [out]")
+    for port in ("Camera", "Levels"):
+        writer = wait_until(lambda port=port: names.query(f"/mirror/{port}:o"))
+        wait_until(
+            lambda writer=writer: len(ask_admin(writer, "admin", readers, TIMEOUT_S)),
+            ignoring=ConnectionLost,
+        )
+    for number, image in enumerate(PROBES):
+        with publishing_stamp(1_500_000_000 * (number + 1), number):
+            push(image)
+        wait_until(lambda number=number: _stamped(images, number))
+        returned, stamp = _stamped(images, number)[0]
+        assert stamp == (1_500_000_000 * (number + 1), "envelope", number)
+        assert returned.header.stamp.sec == 3 * (number + 1) // 2
+        assert pixels_of(returned) == pixels_of(image)
+    with publishing_stamp(2_250_000_000, 9):
+        levels({"left arm": 1.5, "torso": 2.0})
+    wait_until(lambda: maps)
+    assert maps[-1] == (
+        {"left arm": 1.5, "torso": 2.0},
+        MessageStamp(2_250_000_000, "envelope", 9),
+    )
+    assert mirror.poll() is None
+
+
+def _stamped(
+    images: list[tuple[Image, MessageStamp]], number: int
+) -> list[tuple[Image, MessageStamp]]:
+    return [each for each in images if each[1].sequence == number]
+
+
+PROBES = [
+    image_of("rgb8", 4, 2, step=12),
+    image_of("rgb8", 5, 3, step=15),
+    image_of("rgb8", 5, 2, step=16),
+    image_of("mono8", 5, 2, step=5),
+    image_of("mono16", 3, 2, step=6),
+    image_of("bgra8", 3, 2, step=100),
+    image_of("32FC1", 3, 2, step=12),
+    image_of("bayer_rggb8", 4, 2, step=4),
+]
+
+MIRROR = """
+import time
+import yarp
+yarp.Network.init()
+kinds = {"Camera": yarp.FlexImage, "Levels": yarp.Property}
+ports = {}
+for name in kinds:
+    ports[name] = (yarp.Port(), yarp.Port())
+    ports[name][0].open("/mirror/%s:i" % name)
+    ports[name][1].open("/mirror/%s:o" % name)
+
+def run(name):
+    reader, writer = ports[name]
+    while True:
+        data, stamp = kinds[name](), yarp.Stamp()
+        if reader.read(data) and reader.getEnvelope(stamp):
+            writer.setEnvelope(stamp)
+        writer.write(data)
+
+import threading
+for name in kinds:
+    threading.Thread(target=run, args=(name,), daemon=True).start()
+while True:
+    time.sleep(1)
+"""

@@ -174,7 +174,9 @@ class Silent(Recorder):
 
         self.free = threading.Event()
 
-    def receive(self, bottle: Bottle, size: int, *, wants_reply: bool) -> Bottle | None:
+    def receive(
+        self, bottle: Bottle, size: int, envelope: str, *, wants_reply: bool
+    ) -> Bottle | None:
         self.free.wait(LIMIT_S)
         return []
 
@@ -331,7 +333,13 @@ def test_ports_are_unregistered(component: Components, names: NameClient) -> Non
 @pytest.mark.parametrize(
     ("key", "value", "message"),
     [
-        ("port", "5", r"unknown setting `yarp.port`; known: host, name_server, start_name_server"),
+        (
+            "port",
+            "5",
+            r"unknown setting `yarp.port`; known: host, layout, layout.PORT, name_server",
+        ),
+        ("layout", "ros", r"`yarp.layout=ros`: write one of yarp, fields, thrift"),
+        ("layout.Scan", "", r"`yarp.layout.Scan=`: write one of yarp, fields, thrift"),
         ("version", "5", r"`yarp.version=5`: write 3 or 4"),
         ("start_name_server", "yes", "write true or false"),
         ("name_server", "x", "write HOST:PORT"),

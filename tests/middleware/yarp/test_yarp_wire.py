@@ -60,7 +60,9 @@ class Recorder:
         self.errors: list[MalformedMessage] = []
         self.reply: Bottle | None = [77]
 
-    def receive(self, bottle: Bottle, size: int, *, wants_reply: bool) -> Bottle | None:
+    def receive(
+        self, bottle: Bottle, size: int, envelope: str, *, wants_reply: bool
+    ) -> Bottle | None:
         self.received.append(write_text(bottle))
         return self.reply if wants_reply else None
 

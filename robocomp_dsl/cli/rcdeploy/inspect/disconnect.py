@@ -22,8 +22,8 @@ from robocomp_dsl.cli.rcdeploy.inspect.target import InspectCommand, open_client
 def command(source: str, peer: str, *, deployment: str | None, domain: str | None) -> None:
     """Remove the connection of two ports while the components run.
 
-    The peer may have ended, or be a program that is no component; then the first port is the one
-    that looks for it.
+    The peer may have ended, or be a program that is no component; then the first port
+    looks for it.
     """
     from robocomp_dsl.cli.program import CliError  # noqa: PLC0415
     from robocomp_dsl.cli.rcdeploy.inspect import connection_calls as calls  # noqa: PLC0415

@@ -30,7 +30,10 @@ ROLE_NAMES = {
 
 
 class InspectCommand(click.Command):
-    """A command with `-d` and `--domain`; a DDSL file as the first word is that of `-d`."""
+    """A command with `-d` and `--domain`.
+
+    A first word that is a DDSL file, or names a running deployment, is that of `-d`.
+    """
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -45,9 +48,18 @@ class InspectCommand(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """As in click."""
-        if args and args[0].lower().endswith(".ddsl"):
+        if args and (args[0].lower().endswith(".ddsl") or _begins_with_name(args)):
             args = ["--deployment", *args]
         return super().parse_args(ctx, args)
+
+
+def _begins_with_name(args: Sequence[str]) -> bool:
+    """Whether the first word names a running deployment, and no option does."""
+    if args[0].startswith("-") or any(a.startswith(("-d", "--de", "--do")) for a in args):
+        return False
+    from robocomp_dsl.cli.rcdeploy import running  # noqa: PLC0415 - only for deployments
+
+    return running.is_running(args[0])
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,12 +1,14 @@
 """Reads a Bottle in binary form. In: bytes, or a stream. Out: a Bottle, or `MalformedMessage`.
 
-Memory is bounded by the bytes that have arrived: no count of a message is trusted.
+Memory is bounded by the bytes that have arrived: no count of a message is trusted. Large arrays and
+blobs (a `memoryview`) share the memory of the message; small ones are copied, so that they do not
+keep it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -21,12 +23,17 @@ from robocomp_dsl.runtime.codec.bottle.profile import (
 from robocomp_dsl.runtime.codec.bottle.values import MAX_DEPTH, Bottle, Dict
 from robocomp_dsl.runtime.errors import MalformedMessage
 
+Bytes: TypeAlias = bytes | memoryview
+_SHARED_BYTES = 1 << 14
 
-def read_binary(data: bytes, profile: Profile) -> Bottle:
+
+def read_binary(data: Bytes, profile: Profile) -> Bottle:
     """The Bottle that `data` is. Raises `MalformedMessage`."""
     at = 0
+    if len(data) > _SHARED_BYTES:
+        data = memoryview(data).toreadonly()
 
-    def take(size: int) -> bytes:
+    def take(size: int) -> Bytes:
         nonlocal at
         if size > len(data) - at:
             raise MalformedMessage(f"needs {size} bytes, {len(data) - at} are left", "", at)
@@ -40,7 +47,7 @@ def read_binary(data: bytes, profile: Profile) -> Bottle:
     return bottle
 
 
-def read_stream(take: Callable[[int], bytes], profile: Profile) -> tuple[Bottle, int]:
+def read_stream(take: Callable[[int], Bytes], profile: Profile) -> tuple[Bottle, int]:
     """A Bottle from a stream, and its size in bytes.
 
     `take` returns the next bytes; it raises what it likes if they do not arrive, or are too many.
@@ -50,12 +57,12 @@ def read_stream(take: Callable[[int], bytes], profile: Profile) -> tuple[Bottle,
 
 
 class _Reader:
-    def __init__(self, take: Callable[[int], bytes], profile: Profile) -> None:
+    def __init__(self, take: Callable[[int], Bytes], profile: Profile) -> None:
         self._source = take
         self._profile = profile
         self.offset = 0
 
-    def _take(self, size: int) -> bytes:
+    def _take(self, size: int) -> Bytes:
         data = self._source(size)
         self.offset += size
         return data
@@ -88,7 +95,10 @@ class _Reader:
         scalar = self._profile.by_tag.get(inner)
         if scalar is not None and scalar.dtype is not None:
             data = self._take(count * scalar.dtype.itemsize)
-            return np.frombuffer(data, scalar.dtype)
+            array = np.frombuffer(data, scalar.dtype)
+            if isinstance(data, memoryview) and not _is_shareable(array):
+                array = np.frombuffer(bytes(data), scalar.dtype)
+            return array
         if scalar is None and inner not in {STRING, BLOB}:
             raise self._unknown(tag)
         return [self._value(inner, scalar) for _ in range(count)]
@@ -115,10 +125,16 @@ class _Reader:
             (number,) = scalar.form.unpack(self._take(scalar.form.size))
             return number if scalar.type in {int, float} else scalar.type(number)
         data = self._take(self._count())
-        # Older peers send other encodings; `surrogateescape` keeps their bytes.
-        return data.decode(errors="surrogateescape") if tag == STRING else bytes(data)
+        if tag == STRING:
+            # Older peers send other encodings; `surrogateescape` keeps their bytes.
+            return str(data, "utf-8", "surrogateescape")
+        return data if len(data) > _SHARED_BYTES else bytes(data)
 
     def _unknown(self, tag: int) -> MalformedMessage:
         version = self._profile.version
         hint = "" if version > 3 or tag not in {18, 20, 274, 276} else "; is the peer YARP 4?"
         return MalformedMessage(f"YARP {version} has no tag {tag}{hint}", "", self.offset - 4)
+
+
+def _is_shareable(array: np.ndarray[Any, Any]) -> bool:
+    return array.nbytes > _SHARED_BYTES and array.flags.aligned

@@ -1,4 +1,7 @@
-"""Writes a Bottle in binary form. In: a Bottle. Out: bytes, or `EncodeError`."""
+"""Writes a Bottle in binary form. In: a Bottle. Out: bytes, or `EncodeError`.
+
+Large arrays and blobs are not copied into the parts of a message.
+"""
 
 from __future__ import annotations
 
@@ -30,11 +33,37 @@ _INT64 = range(-(2**63), 2**63)
 _MAX_SIZE = 2**31 - 1
 
 
+LARGE_BYTES = 1 << 14
+"""Parts of this size stay what they are."""
+_MAX_PARTS = 64
+
+
 def write_binary(bottle: Bottle, profile: Profile = PROFILE_3) -> bytes:
     """The bytes of a Bottle. Raises `EncodeError` for what no Bottle can contain."""
+    return b"".join(_parts(bottle, profile))
+
+
+def write_parts(bottle: Bottle, profile: Profile = PROFILE_3) -> list[Any]:
+    """As `write_binary`, in few parts: large ones are the memory of the values themselves."""
+    gathered: list[Any] = []
+    small: list[Any] = []
+    for part in _parts(bottle, profile):
+        if len(part) < LARGE_BYTES or len(gathered) >= _MAX_PARTS:
+            small.append(part)
+            continue
+        if small:
+            gathered.append(b"".join(small))
+            small = []
+        gathered.append(part)
+    if small:
+        gathered.append(b"".join(small))
+    return gathered
+
+
+def _parts(bottle: Bottle, profile: Profile) -> list[Any]:
     parts: list[Any] = []
     _Writer(profile, parts).nested(bottle, 1)
-    return b"".join(parts)
+    return parts
 
 
 def _word(number: int) -> bytes:
@@ -73,7 +102,8 @@ class _Writer:
         if scalar is None or items.ndim != 1:
             raise EncodeError(f"a Bottle has no lists of {items.dtype.name}, shape {items.shape}")
         self._add(_word(LIST + scalar.tag) + _word(len(items)))
-        self._add(np.ascontiguousarray(items, items.dtype.newbyteorder("<")).data)
+        array = np.ascontiguousarray(items, items.dtype.newbyteorder("<"))
+        self._add(array.view(np.uint8).data)
 
     def _typed(self, item: Any) -> tuple[int, Any]:
         """The tag of a value, and the value in the type that the tag has."""

@@ -12,17 +12,19 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from robocomp_dsl.runtime.codec.bottle.images import IMAGE_ID, is_image, items_to_image
+from robocomp_dsl.runtime.codec.bottle.layout import Layout
 from robocomp_dsl.runtime.codec.bottle.text_writer import write_value
-from robocomp_dsl.runtime.codec.bottle.to_bottle import join_path
+from robocomp_dsl.runtime.codec.bottle.to_bottle import is_spliced, join_path
 from robocomp_dsl.runtime.codec.bottle.values import FALSE, TRUE, Bottle, Vocab, Vocab64, vocab
-from robocomp_dsl.runtime.data.convert import as_array, as_scalar
+from robocomp_dsl.runtime.data.convert import as_array, as_scalar, check_count
 from robocomp_dsl.runtime.data.errors import EncodeError
-from robocomp_dsl.runtime.data.per_class_cache import once
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
     BYTE,
     DOUBLE,
     FLOAT,
+    OCTET,
     STRING,
     Array,
     Dictionary,
@@ -41,19 +43,32 @@ _FLOAT = struct.Struct("<f")
 _SHOWN = 40
 
 
-def items_to_fields(fields: Fields) -> Callable[[Bottle], list[Any]]:
+def width_of(type_: Type, layout: Layout) -> int:
+    """The number of items that a field of this type has within a message."""
+    if isinstance(type_, type) and issubclass(type_, Struct) and is_spliced(type_, layout):
+        return sum(width_of(field, layout) for _, field in type_._fields_)
+    return 1
+
+
+def items_to_fields(fields: Fields, layout: Layout = Layout.YARP) -> Callable[[Bottle], list[Any]]:
     """A function from items to the values of fields."""
-    converters = [(name, value_converter(type_)) for name, type_ in fields]
+    converters: list[tuple[str, FromItem, int | slice]] = []
+    count = 0
+    for name, type_ in fields:
+        width, spliced = width_of(type_, layout), is_spliced(type_, layout)
+        at = slice(count, count + width) if spliced else count
+        converters.append((name, value_converter(type_, layout), at))
+        count += width
     names = " ".join(name or "result" for name, _ in fields) or "nothing"
 
     def convert(items: Bottle) -> list[Any]:
-        if len(items) != len(converters):
+        if len(items) != count:
             raise MalformedMessage(f"has {len(items)} values, but should have: {names}")
         values = []
         plain = as_items(items)
-        for (name, from_item), item in zip(converters, plain, strict=True):
+        for name, from_item, at in converters:
             try:
-                values.append(from_item(item))
+                values.append(from_item(plain[at]))
             except MalformedMessage as error:
                 raise _inside(name, error) from None
         return values
@@ -66,29 +81,45 @@ def as_items(bottle: Bottle) -> list[Any]:
     return bottle.tolist() if isinstance(bottle, np.ndarray) else bottle
 
 
-def value_converter(type_: Type) -> FromItem:
+def value_converter(type_: Type, layout: Layout = Layout.YARP) -> FromItem:
     """A function from an item to a value of `type_`."""
     convert: FromItem
     match type_:
         case Primitive():
             convert = _scalar(type_)
         case Array():
-            convert = _bools if type_.element is BOOL else _array(type_.element)
+            convert = _counted(type_, _bools if type_.element is BOOL else _array(type_.element))
         case Sequence():
-            convert = _elements(value_converter(type_.element))
+            convert = _counted(type_, _elements(value_converter(type_.element, layout)))
         case Dictionary():
-            convert = _dictionary(type_)
+            convert = _dictionary(type_, layout)
         case _ if issubclass(type_, Enum):
             convert = _member(type_)
         case _ if issubclass(type_, Struct):
-            convert = _struct(type_)
+            convert = _struct(type_, layout)
         case _:
-            convert = _struct_array(type_)
+            convert = _struct_array(type_, layout)
     return convert
 
 
-def _struct_array(type_: Any) -> FromItem:
-    elements = _elements(value_converter(type_._element_))
+def _counted(type_: Array | Sequence, convert: FromItem) -> FromItem:
+    """`convert`, with a check of the length if the type limits it."""
+    if not type_.size and not type_.bound:
+        return convert
+
+    def convert_counted(item: Any) -> Any:
+        values = convert(item)
+        try:
+            check_count(type_, len(values))
+        except EncodeError as error:
+            raise MalformedMessage(error.reason) from None
+        return values
+
+    return convert_counted
+
+
+def _struct_array(type_: Any, layout: Layout) -> FromItem:
+    elements = _elements(value_converter(type_._element_, layout))
     return lambda item: type_(elements(item))
 
 
@@ -163,7 +194,7 @@ def _array(element: Primitive) -> FromItem:
     dtype = element.dtype
 
     def array(item: Any) -> Any:
-        if element is BYTE and isinstance(item, bytes):
+        if element in {BYTE, OCTET} and isinstance(item, bytes | memoryview):
             return np.frombuffer(item, np.uint8)
         try:
             return as_array(_list_of(item), dtype)
@@ -190,13 +221,36 @@ def _elements(from_item: FromItem) -> FromItem:
     return convert
 
 
-def _dictionary(type_: Dictionary) -> FromItem:
-    pair = items_to_fields((("key", type_.key), ("value", type_.value)))
-    pairs = _elements(lambda item: pair(_list_of(item)))
+def _dictionary(type_: Dictionary, layout: Layout) -> FromItem:
+    converters = (
+        ("key", value_converter(type_.key, layout)),
+        ("value", value_converter(type_.value, layout)),
+    )
+
+    def pair(item: Any) -> tuple[Any, ...]:
+        items = as_items(_list_of(item))
+        if len(items) != 2:
+            raise MalformedMessage(f"has {len(items)} values, but should have: key value")
+        values = []
+        for (name, convert), inner in zip(converters, items, strict=True):
+            try:
+                values.append(convert(inner))
+            except MalformedMessage as error:
+                raise _inside(name, error) from None
+        return tuple(values)
+
+    pairs = _elements(pair)
     return lambda item: dict(pairs(item))
 
 
-@once
-def _struct(type_: type[Struct]) -> FromItem:
-    convert = items_to_fields(type_._fields_)
-    return lambda item: type_(*convert(_list_of(item)))
+def _struct(type_: type[Struct], layout: Layout) -> FromItem:
+    convert = items_to_fields(type_._fields_, layout)
+    if type_._type_id_ != IMAGE_ID:
+        return lambda item: type_(*convert(_list_of(item)))
+    convert_image = items_to_image(type_)
+
+    def image(item: Any) -> Any:
+        """From the image of YARP or the fields of ROS, whatever the program sends."""
+        return convert_image(item) if is_image(item) else type_(*convert(_list_of(item)))
+
+    return image

@@ -3,7 +3,8 @@
 In: a type. Out: a function, which raises `EncodeError`.
 
 A struct is a list of its fields, a sequence a list, a dictionary a list of (key value) lists, an
-enumerator an int32, a bool a vocab (`true`, `false`), a sequence of bytes a blob.
+enumerator an int32, a bool a vocab (`true`, `false`), a sequence of bytes a blob. `Layout` tells
+where other programs differ.
 """
 
 from __future__ import annotations
@@ -12,16 +13,30 @@ from collections.abc import Callable
 from collections.abc import Sequence as Values
 from typing import Any, TypeAlias
 
-from robocomp_dsl.runtime.codec.bottle.values import Float32, Int16, Int64
-from robocomp_dsl.runtime.data.convert import as_array, as_list, as_scalar, described
+import numpy as np
+
+from robocomp_dsl.runtime.codec.bottle.images import IMAGE_ID, image_to_items
+from robocomp_dsl.runtime.codec.bottle.layout import Layout
+from robocomp_dsl.runtime.codec.bottle.values import Float32, Int8, Int16, Int64, vocab
+from robocomp_dsl.runtime.data.convert import (
+    as_array,
+    as_list,
+    as_scalar,
+    check_count,
+    described,
+)
 from robocomp_dsl.runtime.data.errors import EncodeError
-from robocomp_dsl.runtime.data.per_class_cache import once
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
     BYTE,
     FLOAT,
+    INT8,
     LONG,
+    OCTET,
     SHORT,
+    UINT16,
+    UINT32,
+    UINT64,
     Array,
     Dictionary,
     Enum,
@@ -33,7 +48,14 @@ from robocomp_dsl.runtime.data.schema import (
 from robocomp_dsl.runtime.data.struct import Struct
 
 ToItem: TypeAlias = Callable[[Any], Any]
-_WIDTHS: dict[Primitive, type[Any]] = {SHORT: Int16, LONG: Int64, FLOAT: Float32}
+_WIDTHS: dict[Primitive, type[Any]] = {INT8: Int8, SHORT: Int16, LONG: Int64, FLOAT: Float32}
+_WIDER: dict[Primitive, np.dtype[Any]] = {
+    UINT16: np.dtype(np.int32),
+    UINT32: np.dtype(np.int64),
+    UINT64: np.dtype(np.int64),
+}
+"""A Bottle has no unsigned numbers."""
+OK, FAIL = vocab("ok"), vocab("fail")
 
 
 def join_path(outer: str, inner: str) -> str:
@@ -45,17 +67,30 @@ def join_path(outer: str, inner: str) -> str:
     )
 
 
-def fields_to_items(fields: Fields) -> Callable[[Values[Any]], list[Any]]:
+def is_spliced(type_: Type, layout: Layout) -> bool:
+    """Whether the items of a field stand among those of the others, without a list."""
+    is_struct = isinstance(type_, type) and issubclass(type_, Struct)
+    return layout is Layout.THRIFT and is_struct
+
+
+def fields_to_items(
+    fields: Fields, layout: Layout = Layout.YARP
+) -> Callable[[Values[Any]], list[Any]]:
     """A function from the values of fields to items."""
-    converters = [(name, item_converter(type_)) for name, type_ in fields]
+    converters = [
+        (name, item_converter(type_, layout), is_spliced(type_, layout)) for name, type_ in fields
+    ]
 
     def convert(values: Values[Any]) -> list[Any]:
         if len(values) != len(converters):
             raise EncodeError(f"takes {len(converters)} values, not {len(values)}")
-        items = []
-        for (name, to_item), value in zip(converters, values, strict=True):
+        items: list[Any] = []
+        for (name, to_item, spliced), value in zip(converters, values, strict=True):
             try:
-                items.append(to_item(value))
+                if spliced:
+                    items += to_item(value)
+                else:
+                    items.append(to_item(value))
             except EncodeError as error:
                 raise EncodeError(error.reason, join_path(name, error.path)) from None
         return items
@@ -63,24 +98,25 @@ def fields_to_items(fields: Fields) -> Callable[[Values[Any]], list[Any]]:
     return convert
 
 
-def item_converter(type_: Type) -> ToItem:
+def item_converter(type_: Type, layout: Layout = Layout.YARP) -> ToItem:
     """A function from a value of `type_` to an item."""
     convert: ToItem
     match type_:
         case Primitive():
-            convert = _scalar(type_)
+            convert = _scalar(type_, layout)
         case Array():
-            convert = _array(type_.element)
+            convert = _array(type_, layout)
         case Sequence():
-            convert = _elements(item_converter(type_.element))
+            convert = _counted(type_, _elements(item_converter(type_.element, layout)))
         case Dictionary():
-            convert = _dictionary(type_)
+            convert = _dictionary(type_, layout)
         case _ if issubclass(type_, Enum):
             convert = _member(type_)
         case _ if issubclass(type_, Struct):
-            convert = _struct(type_)
+            is_image = layout is Layout.YARP and type_._type_id_ == IMAGE_ID
+            convert = image_to_items(type_) if is_image else _struct(type_, layout)
         case _:
-            convert = _struct_array(type_)
+            convert = _struct_array(type_, layout)
     return convert
 
 
@@ -88,20 +124,44 @@ def _member(type_: type[Enum]) -> ToItem:
     return lambda value: int(as_scalar(type_, value))
 
 
-def _scalar(type_: Primitive) -> ToItem:
+def _scalar(type_: Primitive, layout: Layout) -> ToItem:
+    if type_ is BOOL and layout is Layout.THRIFT:
+        return lambda value: OK if as_scalar(type_, value) else FAIL
     width = _WIDTHS.get(type_)
     if width is None:
         return lambda value: as_scalar(type_, value)
     return lambda value: width(as_scalar(type_, value))
 
 
-def _array(element: Primitive) -> ToItem:
-    dtype = element.dtype
-    if element is BYTE:
-        return lambda value: as_array(value, dtype).tobytes()
-    if element is BOOL:
-        return lambda value: as_array(value, dtype).tolist()
-    return lambda value: as_array(value, dtype)
+def _array(type_: Array, layout: Layout) -> ToItem:
+    element, dtype = type_.element, type_.element.dtype
+    wider = _WIDER.get(element)
+
+    def convert(value: Any) -> Any:
+        array = as_array(value, dtype)
+        check_count(type_, len(array))
+        if element in {BYTE, OCTET}:
+            return array.data
+        if element is BOOL:
+            flags = array.tolist()
+            return [OK if flag else FAIL for flag in flags] if layout is Layout.THRIFT else flags
+        # Checked: a uint64 may be too large for the int64 that it becomes.
+        return array if wider is None else as_array(array, wider)
+
+    return convert
+
+
+def _counted(type_: Sequence, convert: ToItem) -> ToItem:
+    """`convert`, with a check of the length if the type limits it."""
+    if not type_.size and not type_.bound:
+        return convert
+
+    def convert_counted(values: Any) -> list[Any]:
+        items: list[Any] = convert(values)
+        check_count(type_, len(items))
+        return items
+
+    return convert_counted
 
 
 def _elements(to_item: ToItem) -> ToItem:
@@ -117,8 +177,9 @@ def _elements(to_item: ToItem) -> ToItem:
     return convert
 
 
-def _dictionary(type_: Dictionary) -> ToItem:
-    to_key, to_value = item_converter(type_.key), item_converter(type_.value)
+def _dictionary(type_: Dictionary, layout: Layout) -> ToItem:
+    to_key = item_converter(type_.key, layout)
+    to_value = item_converter(type_.value, layout)
 
     def convert(values: Any) -> list[Any]:
         if not isinstance(values, dict):
@@ -134,9 +195,8 @@ def _dictionary(type_: Dictionary) -> ToItem:
     return convert
 
 
-@once
-def _struct(type_: type[Struct]) -> ToItem:
-    convert, plain = fields_to_items(type_._fields_), type_._plain_
+def _struct(type_: type[Struct], layout: Layout) -> ToItem:
+    convert, plain = fields_to_items(type_._fields_, layout), type_._plain_
 
     def convert_struct(value: Any) -> list[Any]:
         if getattr(type(value), "_plain_", None) is not plain:
@@ -146,8 +206,8 @@ def _struct(type_: type[Struct]) -> ToItem:
     return convert_struct
 
 
-def _struct_array(type_: Any) -> ToItem:
-    convert = _elements(item_converter(type_._element_))
+def _struct_array(type_: Any, layout: Layout) -> ToItem:
+    convert = _elements(item_converter(type_._element_, layout))
 
     def convert_array(values: Any) -> Any:
         return convert(list(values if isinstance(values, type_) else type_(values)))

@@ -18,6 +18,7 @@ MIDDLEWARE = MiddlewareDescription(
         ros_types_only=True,
     ),
     opener="robocomp_dsl.runtime.middleware.dds.transport:open_transport",
+    address_problem="robocomp_dsl.runtime.middleware.ros_common.valid_names:address_problem",
     requires=("cyclonedds",),
     install="run: pip install 'robocomp_dsl[dds]'",
 )

@@ -45,7 +45,7 @@ def enter_domain(domain_id: int) -> None:
 
 
 def leave_domain(domain_id: int) -> None:
-    """Undo one `enter_domain`; the last one closes the domain."""
+    """Undo an `enter_domain`; the last call closes the domain."""
     with _lock:
         domain, users = _open.pop(domain_id)
         if users > 1:

@@ -1,7 +1,7 @@
 """The receive queue of a reliable subscription: a full queue holds its publishers.
 
 In: messages from Ice's threads. Out: the messages in order, by a thread of the port. A message
-beyond the depth is acknowledged when the next one is taken, and a publisher waits for that.
+beyond the depth is acknowledged when the next message is taken, and a publisher waits for that.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Addresses of ports on Ice.
 
 In: texts of users and of port records. Out: their parts. The record of a served port has one or
-two lines: the proxy for queries, and that for commands if it is another one.
+two lines: the proxy for queries, and that for commands if they differ.
 """
 
 from __future__ import annotations
@@ -14,6 +14,9 @@ ICESTORM = "icestorm:"
 _ENDPOINT = re.compile(r"\s*(?:tcp|ssl|ws|wss|udp|default)\b")
 _TCP = re.compile(r"\s*(?:tcp|ssl|ws|wss|default)\b")
 _PORT = re.compile(r"\s-p\s*([0-9]{1,5})(?=\s|$)")
+_PROXY = re.compile(
+    r"\s*[^\s:@/]+(?:/[^\s:@/]+)?(?:\s+-[a-zA-Z]\S*)*\s*(?:@[^\s:]+\s*|:(.*)|)", re.DOTALL
+)
 _IDENTITY = re.compile(r"\s*([^\s:@]+)\s*:(.*)", re.DOTALL)
 
 
@@ -53,3 +56,19 @@ def split_proxies(address: str) -> tuple[str, str]:
     """The proxies of an address for queries and for commands."""
     queries, _, commands = address.partition("\n")
     return queries, commands or queries
+
+
+def address_problem(address: str) -> str:
+    """What is wrong with a proxy, an endpoint or a topic of IceStorm; empty if nothing is."""
+    if address.startswith(ICESTORM):
+        return "" if address.removeprefix(ICESTORM).strip() else f"`{address}` names no topic"
+    if any(int(number) > 65535 for number in re.findall(r"\s-p\s*([0-9]+)", address)):
+        return f"`{address}` has a TCP port above 65535"
+    proxy = _PROXY.fullmatch(address)
+    endpoints = (proxy[1] or "") if proxy else address
+    if _ENDPOINT.match(endpoints) or (proxy and not endpoints.strip()):
+        return ""  # a proxy without endpoints is resolved by the locator
+    return (
+        f"`{address}` is no address of Ice; write such as `laser:tcp -h 10.0.0.2 -p 10001`,"
+        " or `tcp -p 10001` for an own port"
+    )

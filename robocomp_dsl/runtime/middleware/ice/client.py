@@ -1,6 +1,6 @@
 """Calls one server over Ice, with a connection of its own.
 
-Queries are synchronous calls in the thread of the caller: Ice's asynchronous ones take more than
+Queries are synchronous calls in the thread of the caller: Ice's asynchronous calls take more than
 twice as long. Closing the connection ends them.
 """
 
@@ -151,7 +151,7 @@ def _close_established(future: Any) -> None:
 
 
 def mode_of(operation: Operation) -> Any:
-    """Ice's mode of an operation, part of the wire: a plain server rejects the other one."""
+    """Ice's mode of an operation, part of the wire: a plain server rejects the other mode."""
     return Ice.OperationMode.Idempotent if operation.idempotent else Ice.OperationMode.Normal
 
 

@@ -1,7 +1,7 @@
 """Ice communicators and object adapters of one component.
 
-In: properties. Out: a communicator for calls, and one that serves, with its adapters. There are
-two, because destroying that of the calls is the way to end them.
+In: properties. Out: a communicator for calls, and a serving communicator, with its adapters. There
+are two, because destroying that of the calls is the way to end them.
 """
 
 from __future__ import annotations

@@ -15,6 +15,7 @@ MIDDLEWARE = MiddlewareDescription(
     opener="robocomp_dsl.runtime.middleware.ice.transport:open_transport",
     configuration="robocomp_dsl.runtime.middleware.ice.configuration:apply",
     tcp_ports="robocomp_dsl.runtime.middleware.ice.addresses:tcp_ports",
+    address_problem="robocomp_dsl.runtime.middleware.ice.addresses:address_problem",
     requires=("Ice",),
     install=(
         "on Debian and Ubuntu run: sudo apt-get install python3-zeroc-ice, and see"

@@ -1,7 +1,7 @@
 """Failures of calls as exceptions of Ice, and back.
 
-In: an exception of a handler, or one that Ice raised for a call. Out: the exception for the other
-plane. Plain Ice programs see `UnknownException` with a readable text.
+In: an exception of a handler, or an exception that Ice raised for a call. Out: the exception for
+the other plane. Plain Ice programs see `UnknownException` with a readable text.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ from robocomp_dsl.runtime.middleware.ice.client import parse_proxy
 from robocomp_dsl.runtime.middleware.ice.communicator import reason
 
 MANAGER = "IceStorm/TopicManager:tcp -h localhost -p 9999"
-"""The TopicManager of RoboComp's `rcnode`, used if no setting names another one."""
+"""The TopicManager of RoboComp's `rcnode`, used if no setting names another."""
 RETRY_S = 1.0
 CHECK_S = 3.0
 _CALL_TIMEOUT_MS = 2000
@@ -93,7 +93,7 @@ class TopicLink:
         if problem and problem != self._problem:
             log.warning(
                 "%s is not connected to the topic %s: IceStorm at `%s`: %s; trying again."
-                " Start IceStorm, or name another one: --transport 'ice.TopicManager=…'",
+                " Start IceStorm, or name another TopicManager: --transport 'ice.TopicManager=…'",
                 *(self._owner, self.topic, self._manager_text, problem),
             )
         elif self._problem and not problem and not self._closed:

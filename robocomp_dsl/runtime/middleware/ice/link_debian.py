@@ -2,7 +2,7 @@
 
 Run it with the Python of the environment:
 `python -m robocomp_dsl.runtime.middleware.ice.link_debian`. It links the packages of Ice, and no
-other ones, from the system's folder into the environment. Debian compiles them for its own version
+others, from the system's folder into the environment. Debian compiles them for its own version
 of Python, which must be that of the environment.
 """
 
@@ -26,7 +26,7 @@ def link_packages(system: Path, site: Path) -> list[str]:
     if not (system / library).exists():
         built = ", ".join(path.name for path in system.glob("IcePy*.so"))
         raise FileNotFoundError(
-            f"Debian's Ice is for another Python than this one: {built}, not {library}"
+            f"Debian's Ice is for another Python: {built}, not {library}"
             if built
             else f"there is no Ice in {system}; run: sudo apt-get install python3-zeroc-ice"
         )

@@ -23,7 +23,7 @@ from robocomp_dsl.slice_identifiers import operation_names, valid_path
 
 Answer: TypeAlias = "tuple[bool, bytes]"
 Invoke: TypeAlias = Callable[[bytes, Any], Any]
-"""From a request and Ice's `Current` to an answer, or a future of one."""
+"""From a request and Ice's `Current` to an answer, or a future answer."""
 
 _DONE = (True, wire.EMPTY)
 _IS_A = codec.request_decoder(Operation("ice_isA", inputs={"id": STRING}))

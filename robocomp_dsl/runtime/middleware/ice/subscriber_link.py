@@ -86,7 +86,7 @@ class IceSubscriberLink:
             self._failed(error, counts)
 
     def _has_room(self, counts: OperationCounts) -> bool:
-        """Make room among the messages on their way; False if the new one must be dropped."""
+        """Make room among the messages on their way; False if the new message must be dropped."""
         pending = self._pending
         if len(pending) < self._depth:
             return True

@@ -18,7 +18,7 @@ from robocomp_dsl.runtime.component.user_errors import message_of
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 from robocomp_dsl.runtime.connection.message_queue import MessageQueue
-from robocomp_dsl.runtime.errors import DeclaredError, RejectedByReceiver, RemoteError, Timeout
+from robocomp_dsl.runtime.errors import DeclaredError, RejectedByReceiver, RemoteError
 from robocomp_dsl.runtime.middleware.transport import (
     BoundOperation,
     ServerLost,
@@ -36,18 +36,17 @@ def open_transport(_context: TransportContext) -> InprocTransport:
 
 
 class InprocPort:
-    """A served or subscribed port, found by its address. `alive` is false after it was closed."""
+    """A served or subscribed port, found by its address."""
 
     def __init__(self, port: IncomingPort) -> None:
         self.address = f"{os.getpid()}-{next(_numbers)}"
         self.port = port
         self.queue = MessageQueue(port)
-        self.alive = True
         _ports[self.address] = self
 
     def close(self) -> None:
         """See `PortServer`."""
-        self.alive = False
+        self.port.closed = True
         _ports.pop(self.address, None)
         self.queue.close()
 
@@ -94,11 +93,10 @@ class InprocServiceClient:
         return BoundOperation(None, self._query(operation, served))
 
     def _command(self, served: IncomingOperation) -> Callable[[tuple[Any, ...]], None]:
-        server = self._server
-        put, handle = server.queue.put, served.handle
+        port, put, handle = self._server.port, self._server.queue.put, served.handle
 
         def command(arguments: tuple[Any, ...]) -> None:
-            if not server.alive:
+            if port.closed:
                 raise ServerLost
             put(served, handle, arguments)
 
@@ -107,26 +105,19 @@ class InprocServiceClient:
     def _query(
         self, operation: Operation, served: IncomingOperation
     ) -> Callable[[tuple[Any, ...]], Any]:
-        server, name = self._server, self._server.port.at.name
-        handle = served.handle_within(self._timeout)
+        name = f"{self._server.port.at.name}.{operation.name}"
 
-        def query(arguments: tuple[Any, ...]) -> Any:
-            if not server.alive:
-                raise ServerLost
-            try:
-                return handle(arguments)
-            except Timeout:
-                raise
-            except BaseException as error:
-                served.report(error)
-                if isinstance(error, RejectedByReceiver):
-                    raise
-                if declared := _as_declared(error, served.operation, operation.throws):
-                    raise declared  # noqa: B904 - nearly always the same exception
-                what = f"{type(error).__name__}: {message_of(error)}"
-                raise RemoteError(f"{name}.{operation.name} failed: {what}") from error
+        def convert(error: BaseException) -> BaseException:
+            served.report(error)
+            if isinstance(error, RejectedByReceiver):
+                return error
+            if declared := _as_declared(error, served.operation, operation.throws):
+                return declared
+            failure = RemoteError(f"{name} failed: {type(error).__name__}: {message_of(error)}")
+            failure.__cause__ = error
+            return failure
 
-        return query
+        return served.handle_for_caller(self._timeout, convert, ServerLost)
 
     def set_timeout(self, seconds: float) -> None:
         """See `ServiceClient`."""

@@ -2,7 +2,7 @@
 
 In: descriptors from a peer. Out: read-only views of messages; arrays are decoded without a copy. A
 file that the peer uses again is mapped already. Each message has a descriptor with a shared lock,
-which is closed with the last array of the message: then the peer may write the next one.
+which is closed with the last array of the message: then the peer may write the next message.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The receiving side: served ports, and subscriptions.
 
 In: connections. Out: calls of handlers. The thread of a connection receives and handles, so that a
-message wakes one thread only; another one continues while a handler waits for a remote reply.
+message wakes one thread only; another thread continues while a handler waits for a remote reply.
 """
 
 from __future__ import annotations

@@ -111,7 +111,7 @@ class SubscriberSocket:
         self._flusher.add(self)
 
     def _has_room(self, shared: SharedMessage | None) -> bool:
-        """Whether the queue of a connection that keeps all messages takes another one."""
+        """Whether the queue of a connection that keeps all messages takes another message."""
         if len(self._queue) >= self._capacity:
             return False
         if shared is None:

@@ -19,6 +19,7 @@ MIDDLEWARE = MiddlewareDescription(
         ros_types_only=True,
     ),
     opener="robocomp_dsl.runtime.middleware.rmw_zenoh.transport:open_transport",
+    address_problem="robocomp_dsl.runtime.middleware.ros_common.valid_names:address_problem",
     requires=("zenoh",),
     install="run: pip install eclipse-zenoh",
 )

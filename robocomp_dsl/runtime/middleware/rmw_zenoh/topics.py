@@ -138,7 +138,7 @@ def _sample_handler(served: IncomingOperation) -> Callable[[zenoh.Sample], None]
 
 
 def _lost(received: bytes, latest: dict[bytes, int]) -> int:
-    """How many messages are missing before this one; 0 if its number is not readable."""
+    """How many messages are missing before this message; 0 if its number is not readable."""
     try:
         number, _, gid = parse_attachment(received)
     except MalformedMessage:

@@ -17,6 +17,7 @@ MIDDLEWARE = MiddlewareDescription(
         ros_types_only=True,
     ),
     opener="robocomp_dsl.runtime.middleware.ros2.transport:open_transport",
+    address_problem="robocomp_dsl.runtime.middleware.ros_common.valid_names:address_problem",
     requires=("rclpy",),
     install="source a ROS 2 workspace, or run: pip install 'robocomp_dsl[ros2]'",
 )

@@ -7,31 +7,19 @@ are those of the ROS 2 design article "Topic and Service name mapping to DDS" an
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 
 from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.middleware.ros_common.valid_names import VALID_NAMES
-
-MAX_LENGTH = 240
-"""Characters of a name: DDS allows 256, with the prefix and suffix that ROS adds."""
-_NAME = re.compile(VALID_NAMES)
+from robocomp_dsl.runtime.middleware.ros_common.valid_names import address_problem
 
 
 def absolute_name(name: str, port: str) -> str:
     """`name` with a leading `/`. Raises `MiddlewareError`, naming `port`, if ROS forbids it."""
-    if not _NAME.fullmatch(name):
-        raise MiddlewareError(
-            f"{port}: `{name}` is not a valid ROS name: parts of letters, digits and `_`, not"
-            " starting with a digit, separated by `/`, as in `/base/scan`"
-        )
-    if len(name) > MAX_LENGTH:
-        raise MiddlewareError(
-            f"{port}: the ROS name `{name[:40]}…` has {len(name)} characters,"
-            f" at most {MAX_LENGTH} are allowed"
-        )
+    problem = address_problem(name)
+    if problem:
+        raise MiddlewareError(f"{port}: {problem}")
     return f"/{name.lstrip('/')}"
 
 

@@ -19,9 +19,7 @@ _NO_WORD = re.compile(r"[^A-Za-z0-9_]")
 
 def subscribed_topics(at: Endpoint, middleware: str) -> tuple[str, ...]:
     """The topics of a subscribed port, its own first. Raises `MiddlewareError`."""
-    # A component may publish a port of the same name, and a port has a subscription for each peer.
-    part = "_".join(("in", *(_NO_WORD.sub("_", peer) for peer in at.peers)))
-    names = [absolute_name(f"{at.component}/{at.port}/{part}", at.port)]
+    names = [absolute_name(subscribed_name(at), at.port)]
     names += [
         absolute_name(record.address, at.port)
         for record in at.external
@@ -32,6 +30,13 @@ def subscribed_topics(at: Endpoint, middleware: str) -> tuple[str, ...]:
         if component != ANY:
             names.append(absolute_name(f"{component}/{port or at.port}", at.port))
     return tuple(dict.fromkeys(names))
+
+
+def subscribed_name(at: Endpoint) -> str:
+    """The topic of a subscribed port of its own, without the leading `/`."""
+    # A component may publish a port of the same name, and a port has a subscription for each peer.
+    part = "_".join(("in", *(_NO_WORD.sub("_", peer) for peer in at.peers)))
+    return f"{at.component}/{at.port}/{part}"
 
 
 def topics_address(topics: tuple[str, ...]) -> str:

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
 from robocomp_dsl.runtime.errors import MiddlewareError
-
-CARRIERS = ("tcp", "fast_tcp", "text", "text_ack")
-_ADDRESS = re.compile(
-    r"(?:([a-z_]+):)?(/+[^@\s]+)(?:@(\[[0-9a-fA-F:.]+\]|[^:@\s\[\]]+):(\d{1,5}))?"
-)
+from robocomp_dsl.runtime.middleware.yarp.valid_addresses import ADDRESS, address_problem
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,18 +29,9 @@ class PortAddress:
 
 def parse_address(text: str, port: str) -> PortAddress:
     """`[CARRIER:]/NAME[@HOST:PORT]`. Raises `MiddlewareError`, in which `port` is named."""
-    found = _ADDRESS.fullmatch(text.strip())
-    if not found or int(found[4] or 0) > 65535:
-        raise MiddlewareError(
-            f"{port}: `{text}` is no address of YARP; write a name such as /robot/laser:o,"
-            " fast_tcp:/robot/laser:o, or /robot/laser:o@10.0.0.2:10005"
-        )
-    carrier = found[1] or "tcp"
-    if carrier not in CARRIERS:
-        raise MiddlewareError(
-            f"{port}: the carrier `{carrier}` is not supported; known: {', '.join(CARRIERS)}"
-        )
+    found = ADDRESS.fullmatch(text.strip())
+    problem = address_problem(text)
+    if not found or problem:
+        raise MiddlewareError(f"{port}: {problem}")
     name = "/" + found[2].lstrip("/")
-    if name == "/":
-        raise MiddlewareError(f"{port}: `{text}` names no port; write such as /robot/laser:o")
-    return PortAddress(name, carrier, found[3] or "", int(found[4] or 0))
+    return PortAddress(name, found[1] or "tcp", found[3] or "", int(found[4] or 0))

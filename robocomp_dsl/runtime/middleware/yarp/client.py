@@ -14,6 +14,7 @@ from typing import Any
 from robocomp_dsl.runtime.codec.bottle import messages
 from robocomp_dsl.runtime.codec.bottle.binary_reader import read_stream
 from robocomp_dsl.runtime.codec.bottle.binary_writer import write_binary
+from robocomp_dsl.runtime.codec.bottle.layout import Layout
 from robocomp_dsl.runtime.codec.bottle.profile import Profile
 from robocomp_dsl.runtime.codec.bottle.text_reader import Continuation, read_text
 from robocomp_dsl.runtime.codec.bottle.values import Bottle
@@ -43,8 +44,10 @@ class YarpServiceClient:
         resolve: Resolve,
         profile: Profile,
         timeout: float,
+        layout: Layout = Layout.YARP,
     ) -> None:
         """Raises `MiddlewareError` for an invalid address."""
+        self._layout = layout
         self._server = server
         self._is_external = not server.hash
         self._address = parse_address(server.address, at.name)
@@ -61,7 +64,7 @@ class YarpServiceClient:
 
     def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         """See `ServiceClient`."""
-        convert = messages.request_encoder(operation)
+        convert = messages.request_encoder(operation, self._layout)
 
         def encode(arguments: tuple[Any, ...]) -> tuple[Bottle, bytes]:
             bottle = convert(arguments)
@@ -75,9 +78,9 @@ class YarpServiceClient:
         return BoundOperation(encode, self._query(operation, counts))
 
     def _query(self, operation: Operation, counts: OperationCounts) -> Callable[..., Any]:
-        external, timeout = self._is_external, self._timeout
+        external, timeout, layout = self._is_external, self._timeout, self._layout
         what = f"{self._server.name}.{operation.name}"
-        decode = messages.reply_decoder(operation, external=external)
+        decode = messages.reply_decoder(operation, layout, external=external)
 
         def query(payload: tuple[Bottle, bytes]) -> Any:
             deadline = time.monotonic() + timeout
@@ -98,7 +101,7 @@ class YarpServiceClient:
                 raise
             counts.bytes_in += size
             self._keep(stream)
-            if messages.is_failure(reply, operation, external=external):
+            if messages.is_failure(reply, operation, layout, external=external):
                 raise messages.decode_failure(operation, what, reply)
             try:
                 return decode(reply)

@@ -19,4 +19,5 @@ MIDDLEWARE = MiddlewareDescription(
     ),
     opener="robocomp_dsl.runtime.middleware.yarp.transport:open_transport",
     connector="robocomp_dsl.runtime.middleware.yarp.connector:open_connector",
+    address_problem="robocomp_dsl.runtime.middleware.yarp.valid_addresses:address_problem",
 )

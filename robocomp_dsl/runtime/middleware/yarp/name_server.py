@@ -11,6 +11,7 @@ import signal
 import sys
 import threading
 from collections.abc import Callable
+from queue import SimpleQueue
 from typing import Any
 
 from robocomp_dsl.runtime.codec.bottle.from_bottle import as_items
@@ -37,9 +38,11 @@ class NameReceiver:
     def __init__(self, table: RegistrationTable) -> None:
         self._table = table
 
-    def receive(self, bottle: Bottle, size: int, *, wants_reply: bool) -> Bottle | None:
+    def receive(
+        self, bottle: Bottle, size: int, envelope: str, *, wants_reply: bool
+    ) -> Bottle | None:
         """See `port.Receiver`."""
-        del size, wants_reply
+        del size, envelope, wants_reply
         words = [item if isinstance(item, str) else write_value(item) for item in as_items(bottle)]
         if words[:1] == [_PREFIX]:
             words = words[1:]
@@ -142,12 +145,13 @@ def main(arguments: list[str] | None = None) -> int:
     except MiddlewareError as error:
         sys.stderr.write(f"error: {error}\n")
         return 1
-    ended = threading.Event()
+    # A handler may interrupt `SimpleQueue.get`; in `threading.Event.wait` it would deadlock.
+    signals: SimpleQueue[int] = SimpleQueue()
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: ended.set())
+        signal.signal(number, lambda number, _: signals.put(number))
     sys.stdout.write(f"name server {server.name} at {server.host}:{server.number}\n")
     sys.stdout.flush()
-    ended.wait()
+    signals.get()
     server.close()
     return 0
 

@@ -8,8 +8,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
-from robocomp_dsl.runtime.codec.bottle.binary_writer import write_binary
-from robocomp_dsl.runtime.codec.bottle.profile import Profile
 from robocomp_dsl.runtime.codec.bottle.text_reader import read_text
 from robocomp_dsl.runtime.codec.bottle.text_writer import write_text
 from robocomp_dsl.runtime.codec.bottle.values import Bottle
@@ -96,8 +94,3 @@ def ask_admin(address: PortAddress, sender: str, command: Bottle, timeout: float
         return read_text(reply) if reply != "<ACK>" else []
     finally:
         stream.close()
-
-
-def payload_of(bottle: Bottle, profile: Profile) -> tuple[Bottle, bytes]:
-    """A Bottle, and its bytes. Raises `EncodeError`."""
-    return bottle, write_binary(bottle, profile)

@@ -11,7 +11,7 @@ import logging
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.throttle import Throttle
@@ -19,6 +19,7 @@ from robocomp_dsl.runtime.connection import bounded_queue
 from robocomp_dsl.runtime.middleware.yarp import outgoing
 from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress
 from robocomp_dsl.runtime.middleware.yarp.outgoing import Resolve
+from robocomp_dsl.runtime.middleware.yarp.outgoing_message import OutgoingMessage, Part
 from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost, Stream
 
 DEPTH = 1000
@@ -53,7 +54,7 @@ class OutputLink:
         self._throttle = Throttle()
         self._changed = threading.Condition()
         self._stream: Stream | None = None
-        self._messages: deque[bytes] = deque()
+        self._messages: deque[Part] = deque()
         self._is_sending = False
         self._stalled = False
         self._closed = False
@@ -64,30 +65,31 @@ class OutputLink:
         self._stream = stream
         self._thread.start()
 
-    def send(self, data: bytes, counts: OperationCounts) -> None:
+    def send(self, message: OutgoingMessage, counts: OperationCounts) -> None:
         """Send one message; if there is no room, one is dropped and counted."""
+        carrier = self.address.carrier
         with self._changed:
             if self._closed:
                 return
-            if not self._messages and not self._is_sending and self.address.carrier == "fast_tcp":
-                rest = self._send_now(data)
-                if not rest:
+            if not self._messages and not self._is_sending and carrier == "fast_tcp":
+                sent = self._send_now(message.parts)
+                if sent == message.wire_size:
                     return
-                self._messages.append(rest)
-                self._is_sending = len(rest) < len(data)  # a rest is never dropped
+                self._messages.append(message.rest(sent))
+                self._is_sending = sent > 0  # a rest is never dropped
             elif self._has_room(counts):
-                self._messages.append(data)
+                self._messages.append(message.owned(text=carrier.startswith("text")))
             self._changed.notify_all()
 
-    def _send_now(self, data: bytes) -> bytes:
-        """Send what the buffers take; returns the rest."""
+    def _send_now(self, parts: Sequence[Part]) -> int:
+        """Send what the buffers take; returns the number of bytes."""
         stream = self._stream
         if stream is None or stream.is_closed():
-            return data
+            return 0
         try:
-            return stream.send_now(data)
+            return stream.send_now(parts)
         except OSError:
-            return data  # the thread of the link finds out why
+            return 0  # the thread of the link finds out why
 
     def _has_room(self, counts: OperationCounts) -> bool:
         if self._is_short():

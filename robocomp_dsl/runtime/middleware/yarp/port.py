@@ -121,13 +121,13 @@ class YarpPort:
         self, incoming: Incoming, command: str, bottle: Bottle, size: int, envelope: str
     ) -> Bottle | None:
         """Handle one message: `a` admin, `d` data with a reply, `D` data."""
-        del incoming, envelope
+        del incoming
         if command == "a":
             return answer_admin(self, bottle)
         wants_reply = command == "d"
         if self.receiver is None:
             return [] if wants_reply else None
-        reply = self.receiver.receive(bottle, size, wants_reply=wants_reply)
+        reply = self.receiver.receive(bottle, size, envelope, wants_reply=wants_reply)
         if not wants_reply:
             return None
         # The sender waits for a Bottle; without one it would take the ack for it.

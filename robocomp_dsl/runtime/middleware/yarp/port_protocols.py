@@ -13,7 +13,9 @@ from robocomp_dsl.runtime.middleware.yarp.stream import Stream
 class Receiver(Protocol):
     """What takes the messages of a port."""
 
-    def receive(self, bottle: Bottle, size: int, *, wants_reply: bool) -> Bottle | None:
+    def receive(
+        self, bottle: Bottle, size: int, envelope: str, *, wants_reply: bool
+    ) -> Bottle | None:
         """Handle a message of `size` bytes; returns the reply."""
 
     def reject(self, error: MalformedMessage) -> Bottle:

@@ -7,23 +7,25 @@ Readers are subscribed ports of components, programs that the user names, and th
 from __future__ import annotations
 
 import threading
+from itertools import count
 from typing import Any
 
 from robocomp_dsl.runtime.codec.bottle import messages
-from robocomp_dsl.runtime.codec.bottle.binary_writer import write_binary
+from robocomp_dsl.runtime.codec.bottle.layout import Layout
 from robocomp_dsl.runtime.codec.bottle.profile import Profile
-from robocomp_dsl.runtime.codec.bottle.values import Bottle
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.errors import EncodeError
+from robocomp_dsl.runtime.connection.message_stamp import published_stamp
 from robocomp_dsl.runtime.middleware.transport import BoundOperation
 from robocomp_dsl.runtime.middleware.yarp import outgoing
-from robocomp_dsl.runtime.middleware.yarp.addresses import CARRIERS, PortAddress, parse_address
-from robocomp_dsl.runtime.middleware.yarp.description import MAX_MESSAGE_BYTES
+from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress, parse_address
+from robocomp_dsl.runtime.middleware.yarp.envelopes import write_envelope
 from robocomp_dsl.runtime.middleware.yarp.outgoing import Resolve
+from robocomp_dsl.runtime.middleware.yarp.outgoing_message import OutgoingMessage
 from robocomp_dsl.runtime.middleware.yarp.output_link import CONNECT_S, OutputLink
 from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost
+from robocomp_dsl.runtime.middleware.yarp.valid_addresses import CARRIERS
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 
@@ -107,7 +109,13 @@ class YarpPublisher:
     """A published port."""
 
     def __init__(
-        self, at: Endpoint, links: OutputLinks, address: str, close: Any, profile: Profile
+        self,
+        at: Endpoint,
+        links: OutputLinks,
+        address: str,
+        close: Any,
+        profile: Profile,
+        layout: Layout = Layout.YARP,
     ) -> None:
         """`close` ends the port of YARP. Raises `MiddlewareError` for an invalid address."""
         self.address = address
@@ -115,6 +123,8 @@ class YarpPublisher:
         self._links = links
         self._close_port = close
         self._profile = profile
+        self._layout = layout
+        self._numbers = count()
         self._plain = messages.is_plain_topic(at.interface)
         self._attached: dict[PortRecord, str] = {}
         for record in at.external:
@@ -125,24 +135,18 @@ class YarpPublisher:
         """See `Publisher`."""
         links, profile = self._links, self._profile
         encoder = messages.plain_encoder if self._plain else messages.request_encoder
-        convert = encoder(operation)
+        convert = encoder(operation, self._layout)
+        stamp_of, numbers = published_stamp(operation), self._numbers
 
-        def encode(arguments: tuple[Any, ...]) -> tuple[Bottle, bytes]:
-            bottle = convert(arguments)
-            data = write_binary(bottle, profile)
-            if len(data) > MAX_MESSAGE_BYTES:
-                raise EncodeError(f"a message has at most {MAX_MESSAGE_BYTES} bytes")
-            return bottle, data
+        def encode(arguments: tuple[Any, ...]) -> OutgoingMessage:
+            stamp = stamp_of(arguments)
+            envelope = write_envelope(stamp, next(numbers)) if stamp else ""
+            return OutgoingMessage(convert(arguments), profile, envelope)
 
-        def send(payload: tuple[Bottle, bytes], _number: bytes) -> None:
-            frames: dict[bool, bytes] = {}
+        def send(message: OutgoingMessage, _number: bytes) -> None:
             for link in links.links.values():
-                carrier = link.address.carrier
-                is_text = carrier.startswith("text")
-                if is_text not in frames:
-                    frames[is_text] = outgoing.message_bytes(carrier, *payload, "D")
-                link.send(frames[is_text], counts)
-            counts.bytes_out += len(payload[1])
+                link.send(message, counts)
+            counts.bytes_out += message.size
 
         return BoundOperation(encode, send)
 

@@ -10,9 +10,14 @@ import os
 import select
 import socket
 import time
+from collections.abc import Sequence
+
+import numpy as np
 
 _CHUNK = 1 << 16
 _LARGE_CHUNK = 1 << 20
+_RESERVED = 1 << 24
+"""Memory of this size is reserved before its bytes have arrived."""
 MAX_LINE = 1 << 24
 """Bytes of a line of a text carrier."""
 
@@ -84,6 +89,32 @@ class Stream:
         del buffer[:size]
         return data
 
+    def take_view(self, size: int) -> memoryview:
+        """As `take`, for large messages: received once, into memory of their own."""
+        if size <= _CHUNK:
+            return memoryview(self.take(size))
+        memory = np.empty(min(size, _RESERVED), np.uint8)
+        filled = min(size, len(self._buffer))
+        memory[:filled] = np.frombuffer(self._buffer, np.uint8, filled)
+        del self._buffer[:filled]
+        while filled < size:
+            if filled == len(memory):
+                former, memory = memory, np.empty(min(size, 2 * filled), np.uint8)
+                memory[:filled] = former
+            filled += self._receive_into(memory.data[filled:])
+        return memory.data.toreadonly()
+
+    def _receive_into(self, view: memoryview) -> int:
+        try:
+            self._limit()
+            size = self.socket.recv_into(view)
+        except OSError as error:
+            timed_out = isinstance(error, TimeoutError)
+            raise ConnectionLost(reason(error), timed_out=timed_out) from None
+        if not size:
+            raise ConnectionLost("the peer closed the connection")
+        return size
+
     def line(self) -> str:
         """The next line without its end. Raises `ConnectionLost`, also for a line too long."""
         searched = 0
@@ -94,7 +125,7 @@ class Stream:
             self._receive(_CHUNK)
         return self.take(end + 1).decode(errors="surrogateescape").rstrip("\r\n")
 
-    def send(self, data: bytes) -> None:
+    def send(self, data: bytes | memoryview) -> None:
         """Send all of `data`. Raises `ConnectionLost`."""
         try:
             self._limit()
@@ -119,10 +150,10 @@ class Stream:
         except (OSError, ValueError):
             return True
 
-    def send_now(self, data: bytes) -> bytes:
-        """Send what the buffers of the system take; returns the rest. Raises `OSError`."""
+    def send_now(self, parts: Sequence[bytes | memoryview]) -> int:
+        """Send what the buffers of the system take; returns the bytes sent. Raises `OSError`."""
         self.socket.settimeout(None)
-        return data[self.socket.send(data, socket.MSG_DONTWAIT) :]
+        return self.socket.sendmsg(parts, (), socket.MSG_DONTWAIT)
 
     def close(self) -> None:
         """End the connection; a thread that reads it gets `ConnectionLost`."""

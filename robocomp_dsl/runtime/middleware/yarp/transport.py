@@ -10,6 +10,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
+from robocomp_dsl.runtime.codec.bottle.layout import Layout
 from robocomp_dsl.runtime.codec.bottle.profile import PROFILE_3, PROFILES
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
@@ -26,7 +27,8 @@ from robocomp_dsl.runtime.middleware.yarp.registration import Registration
 from robocomp_dsl.runtime.middleware.yarp.service import OperationReceiver
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
-_SETTINGS = ("host", "name_server", "start_name_server", "version")
+_SETTINGS = ("host", "layout", "layout.PORT", "name_server", "start_name_server", "version")
+_LAYOUT = "layout"
 _HOST = "127.0.0.1"
 
 
@@ -50,7 +52,7 @@ class YarpTransport:
         self._context = context
         settings = context.settings
         for key in settings:
-            if key not in _SETTINGS:
+            if key not in _SETTINGS and not key.startswith(f"{_LAYOUT}."):
                 raise MiddlewareError(
                     f"unknown setting `yarp.{key}`; known: {', '.join(_SETTINGS)}"
                 )
@@ -60,6 +62,11 @@ class YarpTransport:
         starts = settings.get("start_name_server", "false")
         if starts not in {"true", "false"}:
             raise MiddlewareError(f"`yarp.start_name_server={starts}`: write true or false")
+        self._layouts = {
+            key.removeprefix(_LAYOUT).removeprefix("."): _layout(key, text)
+            for key, text in settings.items()
+            if key.partition(".")[0] == _LAYOUT
+        }
         self._profile = PROFILES.get(version, PROFILE_3)
         self._host = settings.get("host", _HOST)
         self._names = NameClient(name_server_address(settings.get("name_server", "")))
@@ -77,9 +84,17 @@ class YarpTransport:
         self.outputs: dict[str, OutputLinks] = {}
         """The outgoing connections of published ports, by port."""
 
+    def _layout_of(self, at: Endpoint) -> Layout:
+        """The layout of the messages of a port: its own, that of its interface, or the common."""
+        if own := self._layouts.get(at.port):
+            return own
+        if at.interface.style == Layout.THRIFT.value:
+            return Layout.THRIFT
+        return self._layouts.get("", Layout.YARP)
+
     def serve(self, port: IncomingPort) -> YarpServer:
         """See `Transport`."""
-        receiver = OperationReceiver(port, is_service=True)
+        receiver = OperationReceiver(port, self._layout_of(port.at), is_service=True)
         return self._receive(port.at, receiver, "/rpc:i", [])
 
     def subscribe(self, port: IncomingPort) -> YarpServer:
@@ -89,7 +104,8 @@ class YarpTransport:
             for record in port.at.external
             if record.middleware == "yarp"
         ]
-        return self._receive(port.at, OperationReceiver(port, is_service=False), ":i", publishers)
+        receiver = OperationReceiver(port, self._layout_of(port.at), is_service=False)
+        return self._receive(port.at, receiver, ":i", publishers)
 
     def _receive(
         self,
@@ -138,7 +154,9 @@ class YarpTransport:
     def connect(self, at: Endpoint, server: PortRecord, timeout: float) -> YarpServiceClient:
         """See `Transport`."""
         sender = f"/{at.component.strip('/')}/{at.port}/rpc:o"
-        client = YarpServiceClient(at, server, sender, self._resolve, self._profile, timeout)
+        client = YarpServiceClient(
+            at, server, sender, self._resolve, self._profile, timeout, self._layout_of(at)
+        )
         with self._lock:
             self._clients.append(client)
         return client
@@ -155,7 +173,9 @@ class YarpTransport:
             self._registration.remove(port)
             port.close()
 
-        return YarpPublisher(at, links, _record_address(port), close, self._profile)
+        return YarpPublisher(
+            at, links, _record_address(port), close, self._profile, self._layout_of(at)
+        )
 
     def close(self) -> None:
         """See `Transport`."""
@@ -166,6 +186,15 @@ class YarpTransport:
         self._registration.close()
         if self._own_name_server:
             self._own_name_server.close()
+
+
+def _layout(key: str, text: str) -> Layout:
+    """The value of a setting. Raises `MiddlewareError`."""
+    try:
+        return Layout(text)
+    except ValueError:
+        known = ", ".join(Layout)
+        raise MiddlewareError(f"`yarp.{key}={text}`: write one of {known}") from None
 
 
 def _record_address(port: YarpPort) -> str:

@@ -18,6 +18,7 @@ _COUNTS = struct.Struct("<BB8s")
 _SPECIFIER_BASE = 7777
 _ACKS = 128
 _TCP = 3
+_TILDE = ord("~")
 MAX_NAME = 1000
 """Bytes of the name of a sender."""
 
@@ -62,16 +63,21 @@ def read_sender(stream: Stream) -> str:
 
 def frame(payload: bytes, command: str = "D", envelope: str = "") -> bytes:
     """A message. `command`: `D` data, `d` data with a reply, `a` admin; `q` has no payload."""
+    return frame_head(len(payload), command, envelope) + payload
+
+
+def frame_head(size: int, command: str = "D", envelope: str = "") -> bytes:
+    """The part of a message before its payload of `size` bytes."""
     text = command if command == "q" else f"{command} {envelope}" if envelope else ""
     if text:
         data = text.encode() + b"\0"
         header = _INT.pack(len(data)) + b"~\0\0\1" + data
     else:
         header = _INT.pack(0) + b"~" + command.encode() + b"\0\1"
-    blocks = [header, payload] if payload else [header]
-    lengths = b"".join(_INT.pack(len(block)) for block in blocks)
-    counts = _COUNTS.pack(len(blocks), 1, b"\xff" * 8)
-    return b"".join((INDEX, counts, lengths, _INT.pack(0), *blocks))
+    sizes = [len(header), size] if size else [len(header)]
+    lengths = b"".join(map(_INT.pack, sizes))
+    counts = _COUNTS.pack(len(sizes), 1, b"\xff" * 8)
+    return b"".join((INDEX, counts, lengths, _INT.pack(0), header))
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +86,7 @@ class YarpMessage:
 
     command: str
     envelope: str
-    payload: bytes
+    payload: bytes | memoryview
     size: int
 
 
@@ -95,18 +101,18 @@ def read_message(stream: Stream) -> YarpMessage:
     size = sum(sizes)
     if min(sizes, default=0) < 0 or size > MAX_MESSAGE_BYTES:
         raise MalformedMessage(f"the frame announces blocks of {size} bytes in total")
-    return _split(stream.take(size), size)
+    return _split(stream.take_view(size), size)
 
 
-def _split(data: bytes, size: int) -> YarpMessage:
+def _split(data: memoryview, size: int) -> YarpMessage:
     """The port header and the payload."""
-    if size < 8 or data[4:5] != b"~":
+    if size < 8 or data[4] != _TILDE:
         raise MalformedMessage("the frame has no header of a port")
     (length,) = _INT.unpack_from(data)
     if not 0 <= length <= min(size - 8, MAX_NAME):
         raise MalformedMessage(f"the header of the port claims a text of {length} bytes")
     if not length:
         return YarpMessage(chr(data[5]), "", data[8:], size)
-    text = data[8 : 8 + length].split(b"\0")[0].decode(errors="replace")
+    text = bytes(data[8 : 8 + length]).split(b"\0")[0].decode(errors="replace")
     command, _, envelope = text.partition(" ")
     return YarpMessage(command, envelope, data[8 + length :], size)

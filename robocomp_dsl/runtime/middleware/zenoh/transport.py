@@ -50,7 +50,7 @@ class ZenohTransport:
         return ZenohPublisher(session, self._domain, at, self._id)
 
     def _reliable_session(self) -> zenoh.Session:
-        """A second session for reliable publishers: one that waits before it drops a message."""
+        """A second session for reliable publishers: it waits before it drops a message."""
         if self._reliable is None:
             self._reliable = open_session(self._domain, hold_s=HOLD_S)
         return self._reliable.session

@@ -2,7 +2,7 @@
 
 In: a middleware. Out: a `Ports` that wraps it. Each interface has a timed interface, whose
 operations are all queries and carry the simulated time, to which the receiver's clock is set.
-Components in lock-step use the timed interfaces; other programs still see the plain ones.
+Components in lock-step use the timed interfaces; other programs still see the plain interfaces.
 """
 
 from __future__ import annotations

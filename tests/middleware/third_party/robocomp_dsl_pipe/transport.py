@@ -28,6 +28,8 @@ from robocomp_dsl.runtime.presence.sequence_format import SEQUENCE_FORMAT
 
 SEND_DEPTH = 256
 """Messages that wait for a subscriber that does not receive; then the oldest are dropped."""
+FLUSH_S = 0.5
+"""A subscriber that does not receive holds the end of a publisher so long."""
 _RESULT, _FAILURE = b"r", b"f"
 
 
@@ -270,7 +272,8 @@ class Sender:
         self._changed = threading.Event()
         self._connection: socket.socket | None = None
         self._closed = False
-        threading.Thread(target=self._run, name=name, daemon=True).start()
+        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
+        self._thread.start()
 
     def put(self, message: tuple[bytes, ...]) -> None:
         """Send a message later; never waits."""
@@ -280,15 +283,16 @@ class Sender:
     def _run(self) -> None:
         with contextlib.suppress(OSError), connect(self._address, None) as connection:
             self._connection = connection
-            while not self._closed:
+            while self._messages or not self._closed:
                 self._changed.wait()
                 self._changed.clear()
-                while self._messages and not self._closed:
+                while self._messages:
                     send(connection, *self._messages.popleft())
 
     def close(self) -> None:
-        """End the thread."""
+        """Send what is left, and end the thread."""
         self._closed = True
         self._changed.set()
+        self._thread.join(FLUSH_S)
         if self._connection:
             shut_down(self._connection)

@@ -1,0 +1,1 @@
+"""Checks of BDSL: names, types, lengths and units of a bridge."""

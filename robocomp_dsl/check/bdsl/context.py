@@ -1,0 +1,71 @@
+"""What all checks of a bridge share: names, imported types, the types module and the report."""
+
+from __future__ import annotations
+
+from typing import NoReturn
+
+from robocomp_dsl.check.bdsl.types_module import TypesModule
+from robocomp_dsl.check.names.import_scope import ImportScope
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.diagnostics import Code, Fix, Report
+from robocomp_dsl.model.bridge_ports import BridgeFunction, BridgeInput
+from robocomp_dsl.model.bridge_values import (
+    BridgeHub,
+    Expression,
+    ItemAt,
+    LengthChecked,
+    Negated,
+    Selected,
+    Sliced,
+)
+from robocomp_dsl.source import Span
+
+
+class FaultyExpression(Exception):
+    """An expression has no type; what is wrong with it was reported."""
+
+
+class BridgeContext:
+    """The declarations of one bridge while they are resolved.
+
+    A name whose value is None is declared, but faulty: what uses it gives no further finding.
+    `is_complete`: the file has no syntax errors, so an unknown name is an error of its own.
+    """
+
+    def __init__(
+        self,
+        scope: ImportScope,
+        types: TypesModule,
+        workspace: Workspace,
+        report: Report,
+        *,
+        is_complete: bool,
+    ) -> None:
+        self.scope = scope
+        self.types = types
+        self.workspace = workspace
+        self.report = report
+        self.is_complete = is_complete
+        self.middleware = ""
+        self.inputs: dict[str, BridgeInput | None] = {}
+        self.functions: dict[str, BridgeFunction | None] = {}
+        self.hubs: dict[str, BridgeHub | None] = {}
+        self.used_names: set[str] = set()
+        self._stated: dict[int, Expression] = {}
+
+    def fail(
+        self, code: Code, span: Span, message: str, help_: str = "", fix: Fix | None = None
+    ) -> NoReturn:
+        """Report an error of an expression. Raises `FaultyExpression`."""
+        self.report.add(code, span, message, help=help_, fix=fix)
+        raise FaultyExpression
+
+    def state_unit(self, value: Expression) -> None:
+        """Remember that the user stated the unit of `value` with `to`."""
+        self._stated[id(value)] = value
+
+    def states_unit(self, value: Expression) -> bool:
+        """Whether the user stated the unit of `value` with `to`."""
+        if isinstance(value, (ItemAt, Selected, Sliced, LengthChecked, Negated)):
+            return self.states_unit(value.value)
+        return id(value) in self._stated

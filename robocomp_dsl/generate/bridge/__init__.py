@@ -1,0 +1,1 @@
+"""Bridges of BDSL: from a checked bridge to the files of a component."""

@@ -1,0 +1,1 @@
+"""Converts the configurations of yarp-bottle-generator to bridges."""

@@ -1,0 +1,1 @@
+"""Bridges at run time: hubs that join messages, outputs that send them, counts."""

@@ -1,0 +1,175 @@
+"""A running bridge: inputs, hubs and outputs of one component, connected by its specification.
+
+In: messages of the component's subscribed ports, and calls of `send_due` on the component's clock.
+Out: calls of the component's proxies. The component runs one callback at a time, so nothing here
+needs a lock.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable, Mapping
+from typing import Protocol
+
+from robocomp_dsl.runtime.bridge.context import NANOSECONDS, MessageContext
+from robocomp_dsl.runtime.bridge.counts import BridgeCounts, LossReport
+from robocomp_dsl.runtime.bridge.hubs import Hub, SynchronisedHub, hub_of
+from robocomp_dsl.runtime.bridge.inputs import BridgedInput
+from robocomp_dsl.runtime.bridge.outputs import BridgedOutput
+from robocomp_dsl.runtime.bridge.schedule import RateSchedule
+from robocomp_dsl.runtime.bridge.services import BridgedService
+from robocomp_dsl.runtime.bridge.spec import (
+    BridgeSpec,
+    HubSpec,
+    InputSpec,
+    OutputSpec,
+    ServiceSpec,
+)
+from robocomp_dsl.runtime.clock import Clock, WallClock
+from robocomp_dsl.runtime.component.lifecycle import Lifecycle
+from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.message_stamp import message_stamp
+
+
+def _message_stamp_ns() -> int:
+    return message_stamp().time_ns
+
+
+class CountedPort(Protocol):
+    """An input, output or service."""
+
+    @property
+    def counts(self) -> BridgeCounts:
+        """What it counts."""
+
+
+class BridgeHost(Protocol):
+    """What a bridge needs of its worker."""
+
+    clock: Clock
+    log: logging.Logger
+    _lifecycle: Lifecycle
+
+
+class RunningBridge:
+    """The bridge of one worker.
+
+    `publish` has the publishing function of each output by name; `statistics` None: those of the
+    component. `message_stamp` returns the time stamp in ns of the message that a handler handles.
+    """
+
+    def __init__(
+        self,
+        spec: BridgeSpec,
+        worker: BridgeHost,
+        publish: dict[str, Callable[..., None]],
+        statistics: Statistics | None = None,
+        message_stamp: Callable[[], int] = _message_stamp_ns,
+    ) -> None:
+        self.spec = spec
+        self._worker = worker
+        self._log = worker.log
+        self._now = worker.clock.now
+        is_wall = isinstance(worker.clock, WallClock)
+        self._now_ns = time.time_ns if is_wall else self._simulated_ns
+        self._statistics = statistics or worker._lifecycle.statistics
+        self.inputs = {s.name: self._input(s, message_stamp) for s in spec.inputs}
+        self.hubs = {s.name: self._hub(s) for s in spec.hubs}
+        self.outputs = {s.name: self._output(s, publish[s.name]) for s in spec.outputs}
+        self.services = {s.name: self._service(s) for s in spec.services}
+        self.schedule = RateSchedule({s.name: s.rate for s in spec.outputs})
+        self._connect()
+
+    def _simulated_ns(self) -> int:
+        return round(self._now() * NANOSECONDS)
+
+    def _losses(self, what: str, spec: InputSpec | OutputSpec | ServiceSpec) -> LossReport:
+        operation = self._statistics.of(spec.port, spec.operation)
+        return LossReport(f"{what} `{spec.name}`", operation, self._log)
+
+    def _input(self, spec: InputSpec, message_stamp: Callable[[], int]) -> BridgedInput:
+        losses = self._losses("input", spec)
+        return BridgedInput(spec, losses.counts, losses, self._now, message_stamp)
+
+    def _hub(self, spec: HubSpec) -> Hub:
+        def drop(index: int, reason: str) -> None:
+            losses = self.inputs[spec.inputs[index]].losses
+            losses.lose_input(reason, spec.place, f"hub `{spec.name}`: {reason}")
+
+        return hub_of(spec, drop)
+
+    def _output(self, spec: OutputSpec, publish: Callable[..., None]) -> BridgedOutput:
+        return BridgedOutput(
+            spec,
+            [self.hubs[name] for name in spec.hubs],
+            publish,
+            self._worker,
+            MessageContext(self.inputs),
+            self._losses("output", spec),
+            self._statistics.of(spec.port, spec.operation),
+            self._now,
+            self._now_ns,
+        )
+
+    def _service(self, spec: ServiceSpec) -> BridgedService:
+        def create_context(counter: int) -> MessageContext:
+            context = MessageContext(self.inputs)
+            context.begin(self._now_ns(), counter)
+            return context
+
+        return BridgedService(spec, self._worker, create_context, self._losses("service", spec))
+
+    def _connect(self) -> None:
+        """Connect inputs to hubs; a hub is followed by the outputs that have no rate."""
+        for hub in self.hubs.values():
+            name = hub.spec.name
+            used = () if hub.spec.is_passive else self._users(name)
+            for index, input_name in enumerate(hub.spec.inputs):
+                self.inputs[input_name].connect(hub, index, used)
+
+    def _users(self, hub: str) -> tuple[BridgedOutput, ...]:
+        """The outputs that use a hub."""
+        return tuple(output for output in self.outputs.values() if hub in output.spec.hubs)
+
+    def set_rate(self, output: str, rate: float) -> float:
+        """Change the rate of an output in Hz, 0: when its inputs are complete.
+
+        Returns the period in ms in which `send_due` must be called from now on.
+        """
+        self.schedule.set_rate(output, rate)
+        self.outputs[output].is_scheduled = rate > 0
+        return self.schedule.period_ms
+
+    def set_max_age(self, hub: str, seconds: float) -> None:
+        """Change the maximum age of the messages of a hub in s; 0: no limit."""
+        self.hubs[hub].max_age = seconds
+
+    def set_tolerance(self, hub: str, seconds: float) -> None:
+        """Change the tolerance of a synchronised hub in s."""
+        found = self.hubs[hub]
+        if isinstance(found, SynchronisedHub):
+            found.set_tolerance(seconds)
+
+    def send_due(self) -> None:
+        """Send the outputs that are due."""
+        for name in self.schedule.due(self._now()):
+            self.outputs[name].send()
+
+    def summary(self) -> list[str]:
+        """The counts of all inputs, outputs and services, a line each."""
+        kinds: tuple[tuple[str, str, Mapping[str, CountedPort]], ...] = (
+            ("input", "received", self.inputs),
+            ("output", "sent", self.outputs),
+            ("service", "answered", self.services),
+        )
+        return [
+            f"{kind} `{name}`: {port.counts.summary(verb)}"
+            for kind, verb, ports in kinds
+            for name, port in ports.items()
+        ]
+
+    def log_summary(self) -> None:
+        """Log the counts."""
+        for line in self.summary():
+            self._log.info("%s", line)

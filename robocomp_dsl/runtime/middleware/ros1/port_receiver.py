@@ -1,0 +1,117 @@
+"""A served or subscribed port, as other components reach it: one connection for all operations.
+
+In: connections with the header fields `port` and the hash of the interface. Out: arguments in the
+queue of the port, and replies. A message is its length, the index of the operation in the interface
+(2 bytes), and the body of the ROS message; a reply is that of a ROS service. So the order of the
+messages of different operations stays, which topics of ROS do not promise.
+"""
+
+from __future__ import annotations
+
+import struct
+import threading
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+from robocomp_dsl.runtime.component.interface import Interface
+from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
+from robocomp_dsl.runtime.errors import MalformedMessage
+from robocomp_dsl.runtime.middleware.ros1 import tcpros
+from robocomp_dsl.runtime.middleware.ros1.incoming import Connection
+from robocomp_dsl.runtime.middleware.ros1.tcpros import ConnectionLost, Stream
+
+INDEX = struct.Struct("<H")
+PORT_KEY = "port"
+Handler: TypeAlias = "Callable[[Any, str], tuple[bytes, bytes] | None]"
+"""From the body of a message and the name of its sender to the reply, if there is one."""
+
+
+def port_header(node: str, name: str, interface: Interface) -> dict[str, str]:
+    """What both sides of a connection of components tell."""
+    return {
+        "callerid": node,
+        "md5sum": interface.hash.hex(),
+        PORT_KEY: name,
+        "type": interface.name,
+    }
+
+
+def frame(operation: int, counter: bytes, data: bytes) -> tuple[bytes, bytes]:
+    """A message of an operation; `counter` is that of its header, or empty."""
+    prefix = INDEX.pack(operation) + counter
+    return tcpros.LENGTH.pack(len(prefix) + len(data)) + prefix, data
+
+
+class PortReceiver:
+    """`handlers` by the index of the operation."""
+
+    def __init__(
+        self, node: str, name: str, port: IncomingPort, handlers: dict[int, Handler]
+    ) -> None:
+        self.name = name
+        self.interface = port.interface
+        self._header = port_header(node, name, port.interface)
+        self._handlers = handlers
+        self._port = port
+        self._lock = threading.Lock()
+        self._connections: tuple[Connection, ...] = ()
+        self._closed = False
+
+    @property
+    def connections(self) -> tuple[Connection, ...]:
+        """The components that are connected."""
+        return self._connections
+
+    def refusal(self, header: dict[str, str]) -> str:
+        """Why a component cannot be connected; empty if it can."""
+        if header.get("md5sum") == self._header["md5sum"]:
+            return ""
+        return (
+            f"{header.get('callerid', 'a component')} was generated from another version of"
+            f" {self.interface.name} than {self._port.at.name}; generate both again"
+        )
+
+    def accept(self, stream: Stream, header: dict[str, str]) -> None:
+        """Receive until the connection ends, which raises `ConnectionLost`."""
+        stream.send(tcpros.encode_header(self._header))
+        connection = Connection(stream, header.get("callerid", "a component"))
+        with self._lock:
+            if self._closed:
+                raise ConnectionLost("the port was closed")
+            self._connections += (connection,)
+        try:
+            self._receive(connection)
+        finally:
+            with self._lock:
+                self._connections = tuple(c for c in self._connections if c is not connection)
+
+    def _receive(self, connection: Connection) -> None:
+        stream, handlers = connection.stream, self._handlers
+        while True:
+            try:
+                data = stream.frame()
+                (index,) = INDEX.unpack_from(data)
+                handler = handlers[index]
+            except (MalformedMessage, struct.error, KeyError) as error:
+                self._report(connection.peer, error)
+                raise ConnectionLost(str(error)) from None
+            connection.messages_in += 1
+            reply = handler(data[INDEX.size :], connection.peer)
+            if reply is not None:
+                if self._closed:
+                    raise ConnectionLost("the port was closed")
+                stream.send(*reply)
+
+    def _report(self, peer: str, error: Exception) -> None:
+        reason = error.reason if isinstance(error, MalformedMessage) else "no such operation"
+        for served in self._port.operations.values():
+            served.report(MalformedMessage(f"{reason} (from {peer})"))
+            return
+
+    def close(self) -> None:
+        """End all connections; running handlers may finish."""
+        with self._lock:
+            self._closed = True
+            connections = self._connections
+        for connection in connections:
+            connection.stream.close()

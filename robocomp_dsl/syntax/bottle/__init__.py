@@ -1,0 +1,1 @@
+"""Bottle definitions: `.bottle` files, which describe the items of a message of YARP."""

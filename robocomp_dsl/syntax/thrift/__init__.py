@@ -1,0 +1,1 @@
+"""Thrift definitions: `.thrift` files, as yarpidl_thrift of YARP reads them."""

@@ -1,0 +1,1 @@
+struct Status { 1: double angle }
