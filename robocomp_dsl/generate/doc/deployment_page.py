@@ -75,12 +75,10 @@ def _blocks(deployment: Deployment, site: DocumentationSite) -> Iterator[Block]:
     columns = ("program", "interface", "how", "over", "address", "what it is")
     yield from data_table("External programs", columns, externals)
     links = [TableRow(_external_connection(link)) for link in deployment.external_connections]
+    title = "Connections between external programs"
     if links:
-        yield Heading(
-            2, plain_text("Connections between external programs"), "external-connections"
-        )
-    columns = ("from", "to", "over", "carrier")
-    yield from data_table("Connections between external programs", columns, links)
+        yield Heading(2, plain_text(title), "external-connections")
+    yield from data_table(title, ("from", "to", "over", "carrier"), links)
     groups = [TableRow(_group(group)) for group in deployment.groups]
     if groups:
         yield Heading(2, plain_text("Groups"), "groups")
