@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from robocomp_dsl.runtime.middleware.yarp.name_client import NameClient, NameServerLost
 from tests.bridge.peers.bridge_process import BridgeProcess
+from tests.bridge.peers.yarp_peers import YarpProgram
 from tests.middleware.ros1.ros1_peers import Master, RospyPeer
+from tests.middleware.yarp.conftest import LOOPBACK
 from tests.middleware.yarp.yarp_tools import Tools, free_port
+from tests.support.waiting import wait_until
 
 
 @pytest.fixture
@@ -34,8 +39,38 @@ def yarp(tmp_path: Path) -> Iterator[Tools]:
     home.mkdir()
     tools = Tools(home, free_port())
     tools.start_name_server()
+    names = NameClient((LOOPBACK, tools.number))
+    wait_until(lambda: names.query("/root"), ignoring=NameServerLost)
     yield tools
     tools.close()
+
+
+@pytest.fixture
+def yarp_program(yarp: Tools) -> Iterator[Callable[..., YarpProgram]]:
+    """Starts programs of YARP."""
+    started: list[YarpProgram] = []
+
+    def start(*command: Any) -> YarpProgram:
+        started.append(YarpProgram(yarp, *command))
+        return started[-1]
+
+    yield start
+    for program in started:
+        program.kill()
+
+
+@pytest.fixture
+def rospy_node(master: Master) -> Iterator[Callable[[str], RospyPeer]]:
+    """Starts nodes of rospy."""
+    started: list[RospyPeer] = []
+
+    def start(name: str) -> RospyPeer:
+        started.append(RospyPeer(master, name))
+        return started[-1]
+
+    yield start
+    for peer in started:
+        peer.close()
 
 
 @pytest.fixture
