@@ -37,7 +37,7 @@ DEMO = rt.Interface(
     rt.Operation("place", returns=rt.Int),
     rt.Operation("make_path", inputs={"start": Point, "xs": rt.Float64Array}, returns=Path),
     rt.Operation("measure_path", inputs={"path": Path}, returns=rt.Int),
-    rt.Operation("reset"),
+    rt.Operation("reset", rt.Pattern.UNMARKED),
     rt.Operation(
         "get_long_method_name",
         inputs={"what": rt.String},

@@ -114,21 +114,22 @@ def request_decoder(
 ) -> Callable[[Bottle], tuple[Any, ...]]:
     """A function from the items behind the name to arguments.
 
-    Arguments with a default may be missing at the end, as for code of `yarpidl_thrift`.
+    A caller of a Thrift service may leave out the last arguments, if they have defaults.
     """
-    inputs, defaults = operation.inputs, operation.defaults
-    convert = items_to_fields(inputs, layout)
+    convert = items_to_fields(operation.inputs, layout)
+    if layout is not Layout.THRIFT or not operation.defaults:
+        return lambda items: tuple(convert(items))
     shorter = {}
-    for missing in range(1, len(defaults) + 1):
-        stated = inputs[: len(inputs) - missing]
-        width = sum(width_of(type_, layout) for _, type_ in stated)
-        shorter[width] = (items_to_fields(stated, layout), defaults[-missing:])
+    for missing in range(1, len(operation.defaults) + 1):
+        fields = operation.inputs[:-missing]
+        width = sum(width_of(type_, layout) for _, type_ in fields)
+        shorter[width] = items_to_fields(fields, layout), operation.defaults[-missing:]
 
     def decode(items: Bottle) -> tuple[Any, ...]:
-        if found := shorter.get(len(items)):
-            convert_stated, values = found
-            return (*convert_stated(items), *values)
-        return tuple(convert(items))
+        if len(items) not in shorter:
+            return tuple(convert(items))
+        first, defaults = shorter[len(items)]
+        return (*first(items), *defaults)
 
     return decode
 
