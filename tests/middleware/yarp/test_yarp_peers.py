@@ -24,7 +24,6 @@ from tests.middleware.yarp.test_yarp_thrift import PATH, PATH_TEXT, check_calls
 from tests.middleware.yarp.test_yarp_transport import HANDLERS
 from tests.middleware.yarp.thrift_types import DEMO, PATHS, DemoHandlers, Path
 from tests.middleware.yarp.yarp_tools import (
-    TIMEOUT_S,
     Tools,
     free_port,
     needs_thrift_peer,
