@@ -18,7 +18,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 from statistics import median
-from time import monotonic, perf_counter_ns
+from time import monotonic, perf_counter_ns, sleep
 from typing import Any
 
 import numpy as np
@@ -30,13 +30,22 @@ from benchmarks.bridge_processes import (
     process,
     ros_master,
 )
-from benchmarks.bridge_types import NUMBERS, STATES, JointState
+from benchmarks.bridge_types import IMAGES, NUMBERS, PICTURES, STATES, Image, JointState
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.yarp.name_server import NameServer
 
 COUNTS = (1, 2, 4, 8, 16, 32)
 ROUNDS, MESSAGES = 10, 50
 GOAL_US = 150.0
+IMAGE_COUNT = 150
+IMAGE_BRIDGE = """
+import "sensor_msgs/msg/Image.msg";
+Bridge eye
+{
+    input image : sensor_msgs::Image over ros1 at "/eye";
+    output picture : sensor_msgs::Image over zenoh = image { header.frame_id = "eye"; };
+};
+"""
 
 
 @dataclass
@@ -147,7 +156,7 @@ class Bench:
                 took = [self.send(variant) for _ in range(MESSAGES)]
                 if variant.pid:
                     variant.cpu += cpu_seconds(variant.pid) - before
-                variant.took += [one for one in took if one]
+                variant.took += [latency for latency in took if latency]
                 variant.lost += took.count(0.0)
 
 
@@ -189,6 +198,48 @@ def figures_of(bench: Bench) -> list[dict[str, Any]]:
     return found
 
 
+def images(master: str) -> list[dict[str, Any]]:
+    """Images of 1 MB at 30 Hz from ROS 1 to zenoh."""
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        (folder / "eye.bdsl").write_text(IMAGE_BRIDGE)
+        rcgen = [sys.executable, "-m", "robocomp_dsl.cli.rcgen", "bridge"]
+        subprocess.run([*rcgen, str(folder / "eye.bdsl"), "-q"], check=True)
+        domain = f"bench-{uuid.uuid4().hex[:8]}"
+        options = ("--transport", f"ros1.master={master}", "--domain", domain)
+        bridge = stack.enter_context(process(sys.executable, "main.py", *options, where=folder))
+        ports, _, _ = open_program("camera", f"{domain}s", 0, master, {("ros1", "eye"): "/eye"})
+        stack.callback(ports.close)
+        at = Endpoint(IMAGES, "camera", "eye", middlewares=("ros1",))
+        publish = ports.advertise(at).bind(IMAGES.operations[0])
+        reader, group, _ = open_program("reader", domain, 0, "", {}, "zenoh")
+        stack.callback(reader.close)
+        arrived: list[tuple[int, float]] = []
+        where = Endpoint(PICTURES, "reader", "p", ("eye.picture",), middlewares=("zenoh",))
+        reader.subscribe(where, {"send": lambda m: arrived.append((m.height, monotonic()))}, group)
+        data, sent = np.zeros(10**6, np.uint8), dict[int, float]()
+        deadline = monotonic() + 60
+        while not arrived and monotonic() < deadline:
+            publish(Image(data=data))
+            sleep(0.1)
+        arrived.clear()
+        before, due = cpu_seconds(bridge.pid), monotonic()
+        for number in range(1, IMAGE_COUNT + 1):
+            sent[number] = monotonic()
+            publish(Image(height=number, data=data))
+            due += 1 / 30
+            sleep(max(due - monotonic(), 0))
+        sleep(0.5)
+        cpu = cpu_seconds(bridge.pid) - before
+    took = [1000 * (moment - sent[number]) for number, moment in arrived if number in sent]
+    what = "1 MB images at 30 Hz, ROS 1 to zenoh"
+    return [
+        {"name": f"{what}: lost of {IMAGE_COUNT}", "value": IMAGE_COUNT - len(took), "unit": ""},
+        {"name": f"{what}: latency", "value": median(took), "unit": "ms"},
+        {"name": f"{what}: CPU per image", "value": 1000 * cpu / IMAGE_COUNT, "unit": "ms"},
+    ]
+
+
 def run() -> list[dict[str, Any]]:
     """All figures."""
     figures: list[dict[str, Any]] = []
@@ -196,6 +247,7 @@ def run() -> list[dict[str, Any]]:
         if not master:
             print("   rosmaster is not installed: skipped")
             return figures
+        figures += images(master)
         for count in COUNTS:
             names = NameServer(("127.0.0.1", 0))
             with ExitStack() as stack:

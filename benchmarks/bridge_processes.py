@@ -77,16 +77,22 @@ def cpu_seconds(pid: int) -> float:
 
 
 def open_program(
-    name: str, domain: str, names: int, master: str, addresses: dict[tuple[str, str], str]
+    name: str,
+    domain: str,
+    names: int,
+    master: str,
+    addresses: dict[tuple[str, str], str],
+    middleware: str = "",
 ) -> tuple[Any, CallbackGroup, Statistics]:
-    """Ports of a program on `yarp` and `ros1`."""
+    """Ports of a program on `yarp` and `ros1`, as far as there are servers, or on `middleware`."""
     group, statistics = CallbackGroup(), Statistics()
-    settings = {("yarp", "name_server"): f"{LOOPBACK}:{names}", ("ros1", "master"): master}
+    settings = {("yarp", "name_server"): f"{LOOPBACK}:{names}"} if names else {}
+    settings |= {("ros1", "master"): master} if master else {}
     context = ComponentContext(
         name, domain, group, statistics, transport_settings=settings, addresses=addresses
     )
-    middlewares = {"yarp", "ros1"} if master else {"yarp"}
-    return open_ports("yarp", context, used=middlewares), group, statistics
+    used = [middleware] if middleware else [name for name, _ in settings]
+    return open_ports(used[0], context, used=set(used)), group, statistics
 
 
 def external(interface: Any, role: str, port: str, middleware: str, address: str) -> PortRecord:

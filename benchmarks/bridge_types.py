@@ -29,9 +29,25 @@ class JointState(rt.Struct, type_id="sensor_msgs/msg/JointState"):
     effort: rt.Float64Array = rt.default()
 
 
+class Image(rt.Struct, type_id="sensor_msgs/msg/Image"):
+    """An image."""
+
+    header: Header = rt.default()
+    height: rt.UInt32 = 0
+    width: rt.UInt32 = 0
+    encoding: rt.String = ""
+    is_bigendian: rt.Byte = 0
+    step: rt.UInt32 = 0
+    data: rt.UInt8Array = rt.default()
+
+
 NUMBERS = rt.Interface(
     "Bench::Numbers", rt.Operation("push", rt.Pattern.PUBLISH, {"numbers": rt.Float64Array})
 )
 STATES = rt.Interface(
     "Bench::States", rt.Operation("send", rt.Pattern.PUBLISH, {"message": JointState})
+)
+IMAGES = rt.Interface("Bench::Images", rt.Operation("send", rt.Pattern.PUBLISH, {"message": Image}))
+PICTURES = rt.Interface(
+    "EyeTypes::PictureTopic", rt.Operation("send", rt.Pattern.PUBLISH, {"message": Image})
 )

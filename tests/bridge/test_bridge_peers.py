@@ -1,4 +1,4 @@
-"""The bridge of `docs/how-to/bridge.md` between real programs of YARP, of ROS 1, and a component."""
+"""The bridge of `docs/how-to/bridge.md` between programs of YARP and ROS 1 and a component."""
 
 from __future__ import annotations
 
