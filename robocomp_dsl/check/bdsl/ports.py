@@ -20,6 +20,7 @@ from robocomp_dsl.check.ddsl.qos import qos_of
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.diagnostics import Code
 from robocomp_dsl.model.bridge_ports import BridgePort
+from robocomp_dsl.model.component import Role
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast import bdsl as ast
@@ -170,6 +171,11 @@ def _check_address(
 def _address_problem(port: BridgePort, description: MiddlewareDescription) -> str:
     if not port.address:
         return "the address is empty"
+    if port.role is Role.IMPLEMENTS and not description.capabilities.fixed_address:
+        return (
+            f"ports over `{description.name}` have no address that could be chosen: callers find"
+            f" `{port.name}` by its name; leave out `at`"
+        )
     if not description.capabilities.external_peers:
         if _COMPONENT.fullmatch(port.address):
             return ""
