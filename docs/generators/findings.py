@@ -21,7 +21,7 @@ FAMILIES = {
     "RC4": "Parameters",
     "RC5": "Deployments",
     "RC6": "Generation, exports and breaking changes",
-    "RC7": "State machines",
+    "RC7": "State machines and bridges",
     "RC8": "Worlds and touch",
     "RC9": "Starting and migrating",
 }

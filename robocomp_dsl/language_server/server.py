@@ -44,6 +44,7 @@ from robocomp_dsl.language_server.features import (
     references,
     rename,
     semantic_tokens,
+    signature_help,
     type_definition,
     workspace_symbols,
 )
@@ -59,6 +60,10 @@ FEATURES: dict[str, tuple[Feature, Any]] = {
     lsp.TEXT_DOCUMENT_COMPLETION: (
         completion.completion,
         lsp.CompletionOptions(trigger_characters=completion.TRIGGERS),
+    ),
+    lsp.TEXT_DOCUMENT_SIGNATURE_HELP: (
+        signature_help.signature_help,
+        lsp.SignatureHelpOptions(trigger_characters=signature_help.TRIGGERS),
     ),
     lsp.TEXT_DOCUMENT_REFERENCES: (references.references, None),
     lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT: (references.highlights, None),

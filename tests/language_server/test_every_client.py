@@ -74,6 +74,16 @@ async def completion(editor: Editor) -> object:
     )
 
 
+@feature(lsp.TEXT_DOCUMENT_SIGNATURE_HELP)
+async def signature_help(editor: Editor) -> object:
+    text = "Bridge b { function half(double x [m]) -> double [m]; hub h = half(|1); };"
+    params = lsp.SignatureHelpParams(**editor.at("half.bdsl", text))
+    found = await editor.client.text_document_signature_help_async(params)
+    editor.close("half.bdsl")
+    assert found is not None
+    return found.signatures[0].label == "function half(double x [m]) -> double [m];"
+
+
 @feature(lsp.TEXT_DOCUMENT_DEFINITION)
 async def definition(editor: Editor) -> object:
     params = lsp.DefinitionParams(**at(editor, "app.ddsl", "reader {"))

@@ -11,6 +11,7 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.resources import GRAMMARS
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.ast import bdsl as ast
+from robocomp_dsl.syntax.languages.bdsl_expressions import operands
 from robocomp_dsl.syntax.parse import parse_bdsl
 
 WORDS = sorted(json.loads((GRAMMARS / "words.json").read_text())["bdsl"]["keywords"])
@@ -21,7 +22,11 @@ Bridge {word}
     input {word} : {word}::{word}.{word} over {word} at "x" {{ stamp {word}.{word}; }};
     function {word}({word}[] {word} [m]) -> {word};
     hub {word} = {word}, {word}.{word}[0];
-    output {word} : {word} over {word} = {word} {{ {word}.{word} = 1; x = {word}({word}) * {word}; }};
+    output {word} : {word} over {word} = {word}
+    {{
+        {word}.{word} = 1;
+        x = {word}({word}) * {word};
+    }};
     service {word} : {word} {{ call {word} : {word}.{word} {{ {word} = 1; }}; {word} = {word}; }};
 }};
 """
@@ -47,31 +52,36 @@ def expression(text: str) -> ast.Expression:
 
 def shown(node: ast.Expression) -> str:
     """The expression with all parentheses, in prefix notation."""
+    values = [shown(operand) for operand in operands(node)]
     match node:
-        case ast.Operation(operator=operator, left=left, right=right):
-            return f"({operator} {shown(left)} {shown(right)})"
-        case ast.Negation(value=value):
-            return f"(- {shown(value)})"
-        case ast.Conversion(value=value, unit=unit):
-            return f"(to {shown(value)} {unit.text})"
-        case ast.Member(value=value, name=name):
-            return f"(. {shown(value)} {name.text})"
-        case ast.Selection(value=value, indices=indices, bounds=bounds):
-            return f"(at {shown(value)} {bounds or indices})"
-        case ast.FunctionCall(name=name, arguments=arguments):
-            return f"({' '.join([name.text, *map(shown, arguments)])})"
-        case ast.ListValue(items=items):
-            return f"{{{', '.join(map(shown, items))}}}"
-        case ast.NumberValue(value=number, unit=None):
-            return str(number)
+        case ast.Operation(operator=operator):
+            return f"({operator} {' '.join(values)})"
+        case ast.Conversion(unit=unit):
+            return f"(to {values[0]} {unit.text})"
+        case ast.Member(name=name):
+            return f"(. {values[0]} {name.text})"
+        case ast.Selection(indices=indices, bounds=bounds):
+            return f"(at {values[0]} {bounds or indices})"
+        case ast.FunctionCall(name=name):
+            return f"({' '.join([name.text, *values])})"
         case ast.NumberValue(value=number, unit=unit):
-            return f"{number}[{unit.text}]"
+            return f"{number}[{unit.text}]" if unit else str(number)
+    return _simple(node, values)
+
+
+def _simple(node: ast.Expression, values: list[str]) -> str:
+    match node:
+        case ast.Negation():
+            return f"(- {values[0]})"
+        case ast.ListValue():
+            return f"{{{', '.join(values)}}}"
         case ast.BoolValue(value=truth):
             return str(truth)
         case ast.TextValue(value=text):
             return repr(text)
-        case _:
-            return node.name.text
+        case ast.Reference(name=name):
+            return name.text
+    raise AssertionError(node)
 
 
 EXPRESSIONS = [
@@ -116,16 +126,6 @@ def test_bdsl_expression_depth_is_limited(text: str) -> None:
     level = list(file.bridge.hubs[0].values) if file.bridge and file.bridge.hubs else []
     while level:
         depth += 1
-        level = [
-            operand
-            for node in level
-            for name in type(node).__match_args__[1:]
-            for operand in _nodes(getattr(node, name))
-        ]
+        level = [operand for node in level for operand in operands(node)]
     assert depth <= 110
     assert [finding.code.id for finding in report] == (["RC005"] if depth < 10 else [])
-
-
-def _nodes(value: object) -> list[ast.Expression]:
-    values = value if isinstance(value, tuple) else (value,)
-    return [item for item in values if isinstance(item, ast.Expression.__args__)]

@@ -112,7 +112,7 @@ hi def link bdsl_max_age_value bdslValue
 hi def link bdsl_max_age_name bdslName
 hi def link bdsl_max_age_field bdslField
 syn region bdsl_max_age matchgroup=bdslKeyword start=/\<max_age\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_max_age_inner,bdsl_max_age_value,bdsl_max_age_name,bdsl_max_age_field
-syn match bdsl_middleware_value contained /\.\@<!\<\%(rmw_zenoh\|inproc\|local\|zenoh\|ros2\|yarp\|dds\|ice\)\>/
+syn match bdsl_middleware_value contained /\.\@<!\<\%(rmw_zenoh\|inproc\|local\|zenoh\|ros1\|ros2\|yarp\|dds\|ice\)\>/
 hi def link bdsl_middleware_inner bdslModifier
 hi def link bdsl_middleware_value bdslValue
 hi def link bdsl_middleware_name bdslName

@@ -63,7 +63,7 @@ hi def link cdsl_language_value cdslValue
 hi def link cdsl_language_name cdslName
 hi def link cdsl_language_field cdslField
 syn region cdsl_language matchgroup=cdslKeyword start=/\<language\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@cdslAny,cdslComment,cdslDoc,cdsl_language_inner,cdsl_language_value,cdsl_language_name,cdsl_language_field
-syn match cdsl_middleware_value contained /\.\@<!\<\%(rmw_zenoh\|inproc\|local\|zenoh\|ros2\|yarp\|dds\|ice\)\>/
+syn match cdsl_middleware_value contained /\.\@<!\<\%(rmw_zenoh\|inproc\|local\|zenoh\|ros1\|ros2\|yarp\|dds\|ice\)\>/
 hi def link cdsl_middleware_inner cdslModifier
 hi def link cdsl_middleware_value cdslValue
 hi def link cdsl_middleware_name cdslName

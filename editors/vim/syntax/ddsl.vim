@@ -189,7 +189,7 @@ hi def link ddsl_memory_value ddslValue
 hi def link ddsl_memory_name ddslName
 hi def link ddsl_memory_field ddslField
 syn region ddsl_memory matchgroup=ddslKeyword start=/\<memory\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_memory_inner,ddsl_memory_value,ddsl_memory_name,ddsl_memory_field
-syn match ddsl_middleware_value contained /\.\@<!\<\%(rmw_zenoh\|inproc\|local\|zenoh\|ros2\|yarp\|dds\|ice\)\>/
+syn match ddsl_middleware_value contained /\.\@<!\<\%(rmw_zenoh\|inproc\|local\|zenoh\|ros1\|ros2\|yarp\|dds\|ice\)\>/
 hi def link ddsl_middleware_inner ddslModifier
 hi def link ddsl_middleware_value ddslValue
 hi def link ddsl_middleware_name ddslName

@@ -19,7 +19,7 @@ from robocomp_dsl.check.codes import bridge as codes
 from robocomp_dsl.check.workspace.loaded import transitive_errors
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.check.workspace.workspace import Workspace
-from robocomp_dsl.diagnostics import Edit, Fix, Report
+from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.syntax.ast import bdsl as ast
 
@@ -39,6 +39,8 @@ def resolve_bdsl(
     valid = check_names(
         (*tree.inputs, *tree.functions, *tree.hubs, *tree.outputs, *tree.services), context
     )
+    for ports in (tree.inputs, tree.outputs, tree.services):
+        context.port_names.update(port.name.text.lower() for port in ports)
     _declare(tree, valid, context)
     hubs = HubResolver([hub for hub in tree.hubs if id(hub) in valid], context)
     resolved_hubs = hubs.resolve_all()
@@ -104,5 +106,5 @@ def _check_content(tree: ast.Bridge, context: BridgeContext) -> None:
                     codes.UNUSED_IN_BRIDGE,
                     item.name.span,
                     f"nothing uses the {kind} `{item.name.text}`",
-                    fix=Fix("remove it", (Edit(item.span, ""),)) if kind != "function" else None,
+                    help="remove it" if kind == "function" else "remove it, or use it in an output",
                 )

@@ -79,14 +79,15 @@ def valid_unit(unit: Unit, report: Report) -> str:
         return ""
     for word in units.unknown_words(text):
         guess = nearest(word, units.known_units())
-        fixed = f"[{text.replace(word, guess)}]" if guess else ""
+        is_case = guess is not None and guess.lower() == word.lower()
+        fixed = f"[{text.replace(word, guess)}]" if guess and is_case else ""
         report.add(
             codes.UNKNOWN_UNIT,
             unit.span,
             f"unknown unit `{word}`: it is converted to itself only",
             label=f"did you mean `{guess}`?" if guess else "",
             help="" if guess else "this is correct if the program counts in units of its own",
-            fix=Fix(f"change to `{fixed}`", (Edit(unit.span, fixed),)) if guess else None,
+            fix=Fix(f"change to `{fixed}`", (Edit(unit.span, fixed),)) if fixed else None,
         )
     return text
 

@@ -12,6 +12,7 @@ from lsprotocol import types as lsp
 
 from robocomp_dsl.check.idsl.units import KNOWN
 from robocomp_dsl.language_server.completion import (
+    complete_bdsl,
     complete_cdsl,
     complete_ddsl,
     complete_idsl,
@@ -45,12 +46,31 @@ _HIDDEN_KEYWORDS = frozenset(
 )
 """Keywords that the parser accepts only for legacy files and for error messages."""
 _PORT_KEYWORDS = frozenset(("IMPLEMENTS", "REQUIRES", "SUBSCRIBES", "PUBLISHES"))
+_FIELD_WORDS = frozenset(
+    (
+        "RATE",
+        "ITEM",
+        "CALL",
+        "RELIABLE",
+        "BEST_EFFORT",
+        "PRIORITY",
+        "DEPTH",
+        "KEEP",
+        "LATCHED",
+        "DEADLINE",
+        "LIVELINESS",
+    )
+)
+"""Keywords of BDSL that the parser accepts as names of fields in every block."""
 _HIDDEN_IN_BLOCK = {
     "COMPONENT": _PORT_KEYWORDS,
     "MODULE": frozenset(("IDEMPOTENT", "OUT")),
     "STRUCT": frozenset(("SEQUENCE", "DICTIONARY")),
     "EXCEPTION": frozenset(("SEQUENCE", "DICTIONARY")),
     "INTERFACE": frozenset(("SEQUENCE", "DICTIONARY")),
+    "OUTPUT": frozenset(("CALL",)),
+    "SERVICE": _FIELD_WORDS - {"CALL"},
+    "CALL": _FIELD_WORDS,
 }
 """Keywords that the parser accepts in a block only to report that they belong elsewhere."""
 
@@ -63,6 +83,7 @@ _PROVIDERS: dict[str, Callable[[Session, CompletionContext], Iterator[Completion
     "ddsl": complete_ddsl.candidates,
     "pdsl": complete_pdsl.candidates,
     "smdsl": complete_smdsl.candidates,
+    "bdsl": complete_bdsl.candidates,
 }
 
 _XML_PROVIDERS: dict[str, Callable[[Session, XmlContext], Iterator[CompletionCandidate]]] = {
@@ -111,6 +132,8 @@ def _keywords(context: CompletionContext) -> Iterator[CompletionCandidate]:
     hidden = _HIDDEN_KEYWORDS | _HIDDEN_IN_BLOCK.get(context.block_kind, frozenset())
     if context.tables.language == "idsl" and not context.block and not context.statement:
         hidden |= context.tables.keyword_terminals - {"IMPORT", "MODULE"}
+    if context.previous_kind in ("STAMP", "DOT"):
+        hidden |= _FIELD_WORDS
     if context.previous_kind == "COMMA":  # the parser accepts a trailing comma, but needs none
         hidden |= {"ON", "AFTER"}
     for kind in sorted((context.accepted & context.tables.keyword_terminals) - hidden):

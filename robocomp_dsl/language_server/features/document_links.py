@@ -17,7 +17,7 @@ from robocomp_dsl.language_server.completion.innermodel_reference import attribu
 from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.language_server.symbols.symbols_innermodel import elements, unquoted_span
 from robocomp_dsl.source import Span
-from robocomp_dsl.syntax.ast import cdsl, ddsl, idsl, innermodel
+from robocomp_dsl.syntax.ast import bdsl, cdsl, ddsl, idsl, innermodel
 from robocomp_dsl.syntax.ast.base import Text
 
 
@@ -34,7 +34,7 @@ def document_links(session: Session, params: lsp.DocumentLinkParams) -> list[lsp
 def links_of(session: Session, path: Path) -> Iterator[tuple[Span, Path]]:
     """The span (without quotes) and the target of every path to an existing file."""
     tree = session.parsed(path).tree
-    if isinstance(tree, idsl.File | cdsl.File):
+    if isinstance(tree, idsl.File | cdsl.File | bdsl.File):
         for statement in tree.imports:
             imported = locate_import(statement, path, session.workspace.import_resolver)
             if imported:

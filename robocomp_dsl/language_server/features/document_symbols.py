@@ -12,7 +12,7 @@ from lsprotocol import types as lsp
 from robocomp_dsl.language_server.positions import PositionCodec
 from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.source import Span
-from robocomp_dsl.syntax.ast import cdsl, ddsl, idsl, innermodel, pdsl, smdsl
+from robocomp_dsl.syntax.ast import bdsl, cdsl, ddsl, idsl, innermodel, pdsl, smdsl
 from robocomp_dsl.syntax.ast.base import Name, Node
 
 KINDS: dict[type, lsp.SymbolKind] = {
@@ -43,6 +43,13 @@ KINDS: dict[type, lsp.SymbolKind] = {
     innermodel.Element: lsp.SymbolKind.Object,
     smdsl.Machine: lsp.SymbolKind.Class,
     smdsl.Substates: lsp.SymbolKind.Namespace,
+    bdsl.Bridge: lsp.SymbolKind.Class,
+    bdsl.Input: lsp.SymbolKind.Property,
+    bdsl.Function: lsp.SymbolKind.Function,
+    bdsl.Hub: lsp.SymbolKind.Variable,
+    bdsl.Output: lsp.SymbolKind.Property,
+    bdsl.Service: lsp.SymbolKind.Method,
+    bdsl.Call: lsp.SymbolKind.Method,
 }
 
 
@@ -129,4 +136,15 @@ def _detail(node: Node) -> str:
             name = node.tag
         case smdsl.Substates(parallel=True):
             return "parallel"
+        case bdsl.Input() | bdsl.Output() | bdsl.Service() | bdsl.Call():
+            return _port_detail(node)
+        case bdsl.Hub(policy=name):
+            pass
     return name.text if name else ""
+
+
+def _port_detail(node: bdsl.Input | bdsl.Output | bdsl.Service | bdsl.Call) -> str:
+    """The type and middleware of a port of a bridge."""
+    over = f"over {node.place.middleware.text}" if node.place.middleware else ""
+    type_text = " ".join(node.type.span.text.split()) if node.type else ""
+    return f"{type_text} {over}".strip()

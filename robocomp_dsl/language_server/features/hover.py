@@ -1,13 +1,16 @@
 """Hover: the signature and doc comment of a name; what a middleware can do.
 
-In InnerModel also the documentation of tags and attributes.
+In InnerModel also the documentation of tags and attributes, in bridges unit conversions.
 """
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from lsprotocol import types as lsp
 
 from robocomp_dsl.language_server.completion import innermodel_reference
+from robocomp_dsl.language_server.features.conversions import conversion_at
 from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.language_server.signatures.signatures import doc_of, signature
 from robocomp_dsl.language_server.symbols.lookup import occurrences_at, resolve_position
@@ -17,6 +20,7 @@ from robocomp_dsl.language_server.symbols.middleware_names import (
 )
 from robocomp_dsl.language_server.symbols.symbol import Symbol
 from robocomp_dsl.language_server.symbols.symbols_innermodel import elements
+from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast.innermodel import Element
 from robocomp_dsl.syntax.ast.innermodel import File as XmlFile
@@ -28,6 +32,7 @@ def hover(session: Session, params: lsp.HoverParams) -> lsp.Hover | None:
     if occurrences:
         occurrence = occurrences[0]
         markup = symbol_markdown(occurrence.definition or occurrence.symbol)
+        markup.value += _conversion_note(session, params)
         return lsp.Hover(markup, session.positions.range_of(occurrence.span))
     path, offset = resolve_position(session, params.text_document, params.position)
     tree = session.parsed(path).tree
@@ -36,12 +41,29 @@ def hover(session: Session, params: lsp.HoverParams) -> lsp.Hover | None:
         if _touches(name.span, offset) and text:
             markup = lsp.MarkupContent(lsp.MarkupKind.Markdown, text)
             return lsp.Hover(markup, session.positions.range_of(name.span))
-    documented = _documentation_at(tree, offset) if isinstance(tree, XmlFile) else None
+    documented = _conversion(session, path, offset)
+    if isinstance(tree, XmlFile):
+        documented = _documentation_at(tree, offset)
     if documented is None:
         return None
     span, text = documented
     markup = lsp.MarkupContent(lsp.MarkupKind.Markdown, text)
     return lsp.Hover(markup, session.positions.range_of(span))
+
+
+def _conversion_note(session: Session, params: lsp.HoverParams) -> str:
+    """The unit conversion of the value at the position, as a paragraph."""
+    path, offset = resolve_position(session, params.text_document, params.position)
+    converted = _conversion(session, path, offset)
+    return f"\n\n{converted[1]}" if converted else ""
+
+
+def _conversion(session: Session, path: Path, offset: int) -> tuple[Span, str] | None:
+    """The unit conversion at `offset` in a bridge."""
+    if path.suffix.lower() != ".bdsl":
+        return None
+    model = session.checked(path).model
+    return conversion_at(model, offset) if isinstance(model, Bridge) else None
 
 
 def symbol_markdown(symbol: Symbol) -> lsp.MarkupContent:

@@ -1,7 +1,7 @@
-"""Inlay hints: inferred patterns and implicit connections.
+"""Inlay hints: inferred patterns, implicit connections and unit conversions.
 
-In: a range of a file. Out: the pattern of each operation without an explicit one, and the target of
-each required port that has no `connect` statement.
+In: a range of a file. Out: the pattern of each operation without an explicit one, the target of
+each required port that has no `connect` statement, and the factor of each unit conversion.
 """
 
 from __future__ import annotations
@@ -10,9 +10,11 @@ from collections.abc import Iterator
 
 from lsprotocol import types as lsp
 
+from robocomp_dsl.language_server.features.conversions import conversion_hints
 from robocomp_dsl.language_server.positions import PositionCodec
 from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.language_server.signatures.signatures_idsl import format_pattern
+from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.model.deployment import Connection, Deployment
 from robocomp_dsl.model.interface import Operation
 from robocomp_dsl.syntax.ast import idsl
@@ -32,6 +34,8 @@ def inlay_hints(session: Session, params: lsp.InlayHintParams) -> list[lsp.Inlay
         model = session.checked(path).model
         if isinstance(model, Deployment):
             hints = list(_connection_hints(model, session.positions))
+        elif isinstance(model, Bridge):
+            hints = list(conversion_hints(model, session.positions))
     return [hint for offset, hint in hints if requested.start <= offset <= requested.end]
 
 

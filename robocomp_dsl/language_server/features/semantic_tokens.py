@@ -38,6 +38,13 @@ TYPES = {
     "state": "enumMember",
     "event": "event",
     "node": "variable",
+    "bridge": "class",
+    "input": "variable",
+    "hub": "variable",
+    "function": "function",
+    "output": "property",
+    "service": "method",
+    "call": "variable",
 }
 """Kind of symbol to the token type of the protocol."""
 

@@ -7,6 +7,7 @@ from lsprotocol import types as lsp
 from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.language_server.symbols.lookup import location_of, occurrences_at
 from robocomp_dsl.model import types
+from robocomp_dsl.model.bridge_ports import BridgeFunction, BridgeInput
 from robocomp_dsl.model.component import Port
 from robocomp_dsl.model.deployment import External, Instance
 from robocomp_dsl.model.interface import Operation, Param
@@ -32,6 +33,8 @@ def _type_span(model_object: object) -> Span | None:
         case (
             types.Field(type=types.Declaration() as declaration)
             | Param(type=types.Declaration() as declaration)
+            | BridgeInput(type=types.Declaration() as declaration)
+            | BridgeFunction(result=types.Declaration() as declaration)
         ):
             return declaration.span
         case Operation(result=types.Declaration() as declaration):

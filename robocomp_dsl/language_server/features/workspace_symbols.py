@@ -27,6 +27,12 @@ KINDS = {
     "statemachine": lsp.SymbolKind.Class,
     "node": lsp.SymbolKind.Object,
     "state": lsp.SymbolKind.EnumMember,
+    "bridge": lsp.SymbolKind.Class,
+    "input": lsp.SymbolKind.Property,
+    "hub": lsp.SymbolKind.Variable,
+    "function": lsp.SymbolKind.Function,
+    "output": lsp.SymbolKind.Property,
+    "service": lsp.SymbolKind.Method,
 }
 """The kinds that are listed; fields and parameters appear only in the outline of their file."""
 

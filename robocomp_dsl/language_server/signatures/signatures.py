@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from robocomp_dsl.language_server.signatures import (
+    signatures_bdsl,
     signatures_components,
     signatures_idsl,
     signatures_innermodel,
@@ -22,6 +23,7 @@ _SIGNATURES: dict[type, Callable[[Any], str]] = {
     **signatures_components.SIGNATURES,
     **signatures_smdsl.SIGNATURES,
     **signatures_innermodel.SIGNATURES,
+    **signatures_bdsl.SIGNATURES,
 }
 
 

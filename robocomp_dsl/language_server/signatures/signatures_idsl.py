@@ -67,18 +67,18 @@ def _enumerator(value: types.Enumerator) -> str:
 def _sequence(sequence: types.Sequence) -> str:
     head = f"sequence<{type_name(sequence.element)}> {sequence.qualified};"
     if sequence.is_anonymous:
-        return _referenced_signature(sequence.element).lstrip()
-    return head + _referenced_signature(sequence.element)
+        return referenced_signature(sequence.element).lstrip()
+    return head + referenced_signature(sequence.element)
 
 
 def _dictionary(dictionary: types.Dictionary) -> str:
     arguments = f"{type_name(dictionary.key)}, {type_name(dictionary.value)}"
     head = f"dictionary<{arguments}> {dictionary.qualified};"
-    return head + _referenced_signature(dictionary.value)
+    return head + referenced_signature(dictionary.value)
 
 
 def _alias(alias: types.Alias) -> str:
-    return f"typedef {type_name(alias.target)} {alias.name};" + _referenced_signature(alias.target)
+    return f"typedef {type_name(alias.target)} {alias.name};" + referenced_signature(alias.target)
 
 
 def _module(module: Module) -> str:
@@ -87,7 +87,7 @@ def _module(module: Module) -> str:
 
 
 def _member(member: types.Field | Param) -> str:
-    return _typed(member.type, member.name, member.unit) + _referenced_signature(member.type)
+    return _typed(member.type, member.name, member.unit) + referenced_signature(member.type)
 
 
 def _fields(fields: Sequence[types.Field]) -> list[str]:
@@ -108,7 +108,7 @@ def _typed(type_: types.Type, name: str, unit: str) -> str:
     return f"{type_name(type_)} {name}{f' [{unit}]' if unit else ''}"
 
 
-def _referenced_signature(type_: types.Type) -> str:
+def referenced_signature(type_: types.Type) -> str:
     """The signature of a type that is used by name, on the lines below."""
     if isinstance(type_, types.Primitive):
         return ""

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.language_server.symbols import (
+    symbols_bdsl,
     symbols_cdsl,
     symbols_ddsl,
     symbols_idsl,
@@ -33,6 +34,7 @@ INDEXERS: dict[str, Indexer] = {
     ".pdsl": symbols_pdsl.index_file,
     ".ddsl": symbols_ddsl.index_file,
     ".smdsl": symbols_smdsl.index_file,
+    ".bdsl": symbols_bdsl.index_file,
     ".scxml": symbols_scxml.index_file,
     ".xml": symbols_innermodel.index_file,
 }

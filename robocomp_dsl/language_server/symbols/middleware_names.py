@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
-from robocomp_dsl.syntax.ast import cdsl, ddsl
+from robocomp_dsl.syntax.ast import bdsl, cdsl, ddsl
 from robocomp_dsl.syntax.ast.base import Name
 
 
 def middleware_names(tree: object) -> Iterator[Name]:
-    """All names of middlewares in the tree of a CDSL or DDSL file."""
+    """All names of middlewares in the tree of a CDSL, DDSL or BDSL file."""
     match tree:
         case cdsl.File(component=cdsl.Component() as component):
             if component.middleware:
@@ -25,6 +25,14 @@ def middleware_names(tree: object) -> Iterator[Name]:
                 yield deployment.middleware
             yield from (external.over for external in deployment.externals)
             yield from _in_block(deployment)
+        case bdsl.File(bridge=bdsl.Bridge() as bridge):
+            if bridge.middleware:
+                yield bridge.middleware
+            calls = (call.place for service in bridge.services for call in service.calls)
+            places = [item.place for item in bridge.inputs]
+            places += [item.place for item in bridge.outputs]
+            places += [item.place for item in bridge.services]
+            yield from (p.middleware for p in (*places, *calls) if p.middleware)
 
 
 def _in_block(block: ddsl.Deployment | ddsl.Group) -> Iterator[Name]:

@@ -32,7 +32,7 @@ def parse(source: Source, report: Report) -> ast.File:
     return file
 
 
-class HubPolicy(Node):
+class WrittenPolicy(Node):
     """`policy synchronised within 20 ms;`."""
 
     word: Name
@@ -156,7 +156,7 @@ class BdslBuilder(ExpressionBuilder, TypeBuilder, QosBuilder):
             )
         elif synchronises or self.check_choice(word, POLICIES, "hub policy"):
             self._only_synchronised(word, tolerance, synchronises=synchronises)
-        return BlockSetting(span, "policy", HubPolicy(span, word, tolerance))
+        return BlockSetting(span, "policy", WrittenPolicy(span, word, tolerance))
 
     def _only_synchronised(
         self, word: Name, tolerance: Duration | None, *, synchronises: bool

@@ -56,7 +56,7 @@ CASES = [
     (
         "bdsl",
         "rate 50 Hz; rate = f(a) to [rad];",
-        "keyword:rate number:50  unit:Hz operator:= function:f blue:to unit:[rad]",
+        "keyword:rate number:50 Hz operator:= function:f blue:to unit:[rad]",
     ),
 ]
 

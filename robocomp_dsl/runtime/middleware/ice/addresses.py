@@ -15,7 +15,8 @@ _ENDPOINT = re.compile(r"\s*(?:tcp|ssl|ws|wss|udp|default)\b")
 _TCP = re.compile(r"\s*(?:tcp|ssl|ws|wss|default)\b")
 _PORT = re.compile(r"\s-p\s*([0-9]{1,5})(?=\s|$)")
 _PROXY = re.compile(
-    r"\s*[^\s:@/]+(?:/[^\s:@/]+)?(?:\s+-[a-zA-Z]\S*)*\s*(?:@[^\s:]+\s*|:(.*)|)", re.DOTALL
+    r"\s*[^\s:@/]+(?:/[^\s:@/]+)?(?:\s+-[a-zA-Z](?:\s*[^\s:@-][^\s:@]*)?)*\s*(?:@[^\s:]+\s*|:(.*)|)",
+    re.DOTALL,
 )
 _IDENTITY = re.compile(r"\s*([^\s:@]+)\s*:(.*)", re.DOTALL)
 
