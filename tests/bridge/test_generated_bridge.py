@@ -305,7 +305,10 @@ def test_live_parameters_of_bridge_have_its_values_and_change_it(
         bridge = worker.bridge
         assert bridge.schedule.rates == {"joined": 33.3333333, "fast": 0.0}
         assert worker._lifecycle.period_ms == pytest.approx(30.0)
-        assert (bridge.hubs["pair"].tolerance_ns, bridge.hubs["pair"].max_age) == (33_300_000, 86_400)
+        assert (bridge.hubs["pair"].tolerance_ns, bridge.hubs["pair"].max_age) == (
+            33_300_000,
+            86_400,
+        )
         worker.params.set({"joined.rate": 0.0, "pair.tolerance": 0.5, "pair.max_age": 2.0})
         assert worker._lifecycle.period_ms == 0.0
         assert not bridge.outputs["joined"].is_scheduled
