@@ -7,7 +7,6 @@ import math
 import os
 import re
 import shutil
-import socket
 import subprocess
 import threading
 from collections.abc import Callable, Iterator
@@ -107,15 +106,14 @@ def tools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Tools]:
     monkeypatch.setenv("YARP_CONFIG_HOME", str(home))
     monkeypatch.delenv("YARP_NAMESPACE", raising=False)
     found.start_name_server()
-    wait_until(lambda: answers(found.number))
+    wait_until(lambda: answers(found))
     yield found
     found.close()
 
 
-def answers(number: int) -> bool:
-    """Whether a server accepts connections."""
-    with socket.socket() as probe:
-        return probe.connect_ex((LOOPBACK, number)) == 0
+def answers(tools: Tools) -> bool:
+    """Whether the name server registers and finds ports."""
+    return tools.run("exists", "/root").returncode == 0
 
 
 def collected(process: subprocess.Popen[str]) -> list[str]:
@@ -149,6 +147,7 @@ class Writer:
         self.process = tools.start("write", "/rover/wheels:o")
 
     def write(self) -> None:
+        """Write one message."""
         assert self.process.stdin is not None
         self.process.stdin.write("90.0 180.0\n")
         self.process.stdin.flush()
@@ -164,7 +163,12 @@ def test_bridge_of_page_joins_yarp_program_ros_node_and_component(
         interface = type(worker.angles_proxy).INTERFACE
         program = peer("zenoh", shares_domain=True)
         angles = program.subscribe(interface, "angles", "rover.angles")
-        wait_until(lambda: (writer.write(), states and angles and len(commands) > 2)[1])
+
+        def has_arrived() -> bool:
+            writer.write()
+            return bool(states and angles and len(commands) > 2)
+
+        wait_until(has_arrived)
         state = json.loads(states[0])
         assert state["name"] == ["left", "right"]
         assert state["position"] == pytest.approx([math.pi / 2 - 1, math.pi - 1])
@@ -178,26 +182,31 @@ def test_bridge_continues_after_restart_of_programs_and_name_servers(
 ) -> None:
     node, writer = ros.start_node(), Writer(tools)
     reader = tools.start("read", "/rover/command:i")
+    states, commands = collected(node), collected(reader)
 
-    def wait_for_data() -> None:
-        states, commands = collected(node), collected(reader)
-        wait_until(lambda: (writer.write(), states and commands)[1])
+    def is_passing() -> bool:
+        writer.write()
+        return bool(states and commands)
 
     with running(bridge_folder, "--domain", domain):
-        wait_for_data()
+        wait_until(is_passing)
         ros.end(node)
         writer.process.kill()
-        reader.kill()
         node, writer = ros.start_node(), Writer(tools)
-        reader = tools.start("read", "/rover/command:i")
-        wait_for_data()
-        tools.restart_name_server()
-        wait_until(lambda: answers(tools.number))
-        writer.process.kill()
-        reader.kill()
-        writer, reader = Writer(tools), tools.start("read", "/rover/command:i")
-        wait_for_data()
+        states = collected(node)
+        commands.clear()
+        wait_until(is_passing)
         ros.restart_master()
         ros.end(node)
         node = ros.start_node()
-        wait_for_data()
+        states = collected(node)
+        commands.clear()
+        wait_until(is_passing)
+        tools.restart_name_server()
+        wait_until(lambda: answers(tools))
+        writer.process.kill()
+        reader.kill()
+        writer, reader = Writer(tools), tools.start("read", "/rover/command:i")
+        commands = collected(reader)
+        states.clear()
+        wait_until(is_passing)
