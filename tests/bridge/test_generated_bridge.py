@@ -284,6 +284,37 @@ def test_bridge_does_not_copy_image_and_keeps_received_message_unchanged(
         source.close()
 
 
+SETTINGS = """
+Bridge settings
+{
+    input a : double over zenoh;
+    input b : double over zenoh;
+    hub pair = a, b { policy synchronised within 33.3 ms; max_age 86400 s; };
+    output joined : double[] over zenoh = pair { rate 33.3333333 Hz; };
+    output fast : double over zenoh = a { rate 5000 Hz; };
+};
+"""
+
+
+def test_live_parameters_of_bridge_have_its_values_and_change_it(
+    rcgen: Rcgen, tmp_path: Path, domain: str
+) -> None:
+    folder = generate(rcgen, tmp_path, SETTINGS)
+    assert rcgen("check", folder / "settings.pdsl", "--format", "concise").err == ""
+    with running(folder, "--domain", domain, "--set", "fast.rate=0") as worker:
+        bridge = worker.bridge
+        assert bridge.schedule.rates == {"joined": 33.3333333, "fast": 0.0}
+        assert worker._lifecycle.period_ms == pytest.approx(30.0)
+        assert (bridge.hubs["pair"].tolerance_ns, bridge.hubs["pair"].max_age) == (
+            33_300_000,
+            86_400,
+        )
+        worker.params.set({"joined.rate": 0.0, "pair.tolerance": 0.5, "pair.max_age": 2.0})
+        assert worker._lifecycle.period_ms == 0.0
+        assert not bridge.outputs["joined"].is_scheduled
+        assert (bridge.hubs["pair"].tolerance_ns, bridge.hubs["pair"].max_age) == (500_000_000, 2)
+
+
 WORDS = (  # noqa: SIM905 - shorter
     "class lambda self at user values message np int list Any rt copy mapping bridge log"
     " initialize compute params get BridgeWorker JointState Time None object import field len"
