@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from typing import Protocol
 
 from robocomp_dsl.runtime.bridge.context import NANOSECONDS, MessageContext
-from robocomp_dsl.runtime.bridge.counts import BridgeCounts, LossReport
+from robocomp_dsl.runtime.bridge.counts import BridgeCounts, LossReport, transport_losses
 from robocomp_dsl.runtime.bridge.hubs import Hub, SynchronisedHub, hub_of
 from robocomp_dsl.runtime.bridge.inputs import BridgedInput
 from robocomp_dsl.runtime.bridge.outputs import BridgedOutput
@@ -42,6 +42,10 @@ class CountedPort(Protocol):
     @property
     def counts(self) -> BridgeCounts:
         """What it counts."""
+
+    @property
+    def spec(self) -> InputSpec | OutputSpec | ServiceSpec:
+        """Its port and operation."""
 
 
 class BridgeHost(Protocol):
@@ -91,6 +95,7 @@ class RunningBridge:
 
     def _losses(self, what: str, spec: InputSpec | OutputSpec | ServiceSpec) -> LossReport:
         operation = self._statistics.of(spec.port, spec.operation)
+        operation.place = spec.place
         return LossReport(f"{what} `{spec.name}`", operation, self._log)
 
     def _input(self, spec: InputSpec, message_stamp: Callable[[], int]) -> BridgedInput:
@@ -170,6 +175,7 @@ class RunningBridge:
         )
         return [
             f"{kind} `{name}`: {port.counts.summary(verb)}"
+            f"{transport_losses(self._statistics.of(port.spec.port, port.spec.operation), port.counts)}"
             for kind, verb, ports in kinds
             for name, port in ports.items()
         ]

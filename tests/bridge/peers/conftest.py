@@ -8,11 +8,10 @@ from typing import Any
 
 import pytest
 
-from robocomp_dsl.runtime.middleware.yarp.name_client import NameClient, NameServerLost
 from tests.bridge.peers.bridge_process import BridgeProcess
+from tests.bridge.peers.running_rover import Nodes, Programs, Rover
 from tests.bridge.peers.yarp_peers import YarpProgram
 from tests.middleware.ros1.ros1_peers import Master, RospyPeer
-from tests.middleware.yarp.conftest import LOOPBACK
 from tests.middleware.yarp.yarp_tools import Tools, free_port
 from tests.support.waiting import wait_until
 
@@ -39,8 +38,7 @@ def yarp(tmp_path: Path) -> Iterator[Tools]:
     home.mkdir()
     tools = Tools(home, free_port())
     tools.start_name_server()
-    names = NameClient((LOOPBACK, tools.number))
-    wait_until(lambda: names.query("/root"), ignoring=NameServerLost)
+    wait_until(lambda: tools.knows("/root"))
     yield tools
     tools.close()
 
@@ -85,6 +83,17 @@ def bridge(master: Master, yarp: Tools) -> Iterator[Callable[..., BridgeProcess]
     yield start
     for process in started:
         process.close()
+
+
+@pytest.fixture
+def running(
+    tmp_path: Path,
+    yarp_program: Programs,
+    rospy_node: Nodes,
+    bridge: Callable[..., BridgeProcess],
+) -> Rover:
+    """A bridge through which data flows both ways."""
+    return Rover(tmp_path, yarp_program, rospy_node, bridge)
 
 
 def ros(master: Master) -> dict[str, str]:

@@ -22,7 +22,7 @@ Bridge rover
 };
 """
 WHEELS, SPEED, ANGLES = "/rover/wheels:o", "/rover/speed", "/rover/angles"
-COMMAND, REQUEST = "/rover/command:i", "/rover/rpc:i"
+COMMAND, SETTING = "/rover/command:i", "/rover/rpc:i"
 SPEED_TYPE, ANGLES_TYPE = "std_msgs/Float64", "std_msgs/Float64MultiArray"
 GOAL_S = 2.0
 """A bridge connects again within this time; tests print it and do not depend on it."""

@@ -119,6 +119,11 @@ class TopicReceiver:
         if self._throttle.allows(key):
             log.warning(f"%s: {text}", self.port, *values)
 
+    def inform(self, key: str, text: str, *values: Any) -> None:
+        """Log what happens in a normal run, limited in rate for each key."""
+        if self._throttle.allows(key):
+            log.info(f"%s: {text}", self.port, *values)
+
     def close(self) -> None:
         """End all connections."""
         with self._lock:
