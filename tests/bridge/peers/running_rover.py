@@ -29,7 +29,7 @@ class Rover:
         self.publisher = self.start_publisher(0.5)
         self.subscriber = self.start_subscriber()
         self.bridge = bridge(rover.write_bridge(folder))
-        wait_until(lambda: self.reader.messages and self.server.messages, self.log)
+        wait_until(lambda: self.reader.messages and self.server.messages, self.log, 25)
         wait_until(lambda: self.subscriber.command("count", rover.ANGLES), self.log)
 
     def log(self) -> str:

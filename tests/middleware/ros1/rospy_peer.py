@@ -69,6 +69,15 @@ class Peer:
     def advertise(self, topic, type_):
         self.publishers[topic] = rospy.Publisher(topic, self.type_of(type_), queue_size=10)
 
+    def advertise_malformed(self, topic, type_, size):
+        """Advertise a type whose messages are `size` bytes that mean nothing."""
+
+        class Malformed(self.type_of(type_)):
+            def serialize(self, buff):
+                buff.write(b"\x7f" * size)
+
+        self.publishers[topic] = rospy.Publisher(topic, Malformed, queue_size=10)
+
     def connections(self, topic):
         return self.publishers[topic].get_num_connections()
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress
 from robocomp_dsl.runtime.middleware.yarp.name_client import NameClient, NameServerLost
 from tests.middleware.yarp.conftest import LOOPBACK
 
@@ -103,6 +104,12 @@ class Tools:
         """End YARP's name server."""
         self._name_server.kill()
         self._name_server.wait()
+
+    def address_of(self, port: str) -> PortAddress:
+        """Where a port is, which must be known."""
+        found = NameClient((LOOPBACK, self.number)).query(port)
+        assert found is not None, f"the name server does not know {port}"
+        return found
 
     def knows(self, port: str) -> bool:
         """Whether the name server replies and knows a port."""
