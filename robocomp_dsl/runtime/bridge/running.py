@@ -168,17 +168,20 @@ class RunningBridge:
 
     def summary(self) -> list[str]:
         """The counts of all inputs, outputs and services, a line each."""
-        kinds: tuple[tuple[str, str, Mapping[str, CountedPort]], ...] = (
-            ("input", "received", self.inputs),
-            ("output", "sent", self.outputs),
-            ("service", "answered", self.services),
+        kinds: tuple[tuple[str, str, str, Mapping[str, CountedPort]], ...] = (
+            ("input", "received", "dropped", self.inputs),
+            ("output", "sent", "not sent", self.outputs),
+            ("service", "requests", "failed", self.services),
         )
         return [
-            f"{kind} `{name}`: {port.counts.summary(verb)}"
-            f"{transport_losses(self._statistics.of(port.spec.port, port.spec.operation), port.counts)}"
-            for kind, verb, ports in kinds
+            f"{kind} `{name}`: {port.counts.summary(verb, lost)}{self._transport_losses(port)}"
+            for kind, verb, lost, ports in kinds
             for name, port in ports.items()
         ]
+
+    def _transport_losses(self, port: CountedPort) -> str:
+        operation = self._statistics.of(port.spec.port, port.spec.operation)
+        return transport_losses(operation, port.counts)
 
     def log_summary(self) -> None:
         """Log the counts."""
