@@ -20,7 +20,7 @@ from robocomp_dsl.runtime.bridge.spec import (
 )
 from robocomp_dsl.runtime.component.lifecycle import Lifecycle
 from robocomp_dsl.runtime.component.statistics import Statistics
-from robocomp_dsl.runtime.errors import EncodeError, NoServer
+from robocomp_dsl.runtime.errors import EncodeError, NoServer, ReportedFailure
 
 
 class SteppedClock:

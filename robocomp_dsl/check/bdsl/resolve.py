@@ -6,6 +6,8 @@ the errors of the files that it imports.
 
 from __future__ import annotations
 
+import re
+
 from robocomp_dsl.check.bdsl.addresses import check_addresses
 from robocomp_dsl.check.bdsl.context import BridgeContext
 from robocomp_dsl.check.bdsl.declarations import check_names, resolve_function, resolve_input
@@ -95,6 +97,8 @@ def _check_content(tree: ast.Bridge, context: BridgeContext) -> None:
             help="add an `output` or a `service`",
         )
         return
+    # What a faulty statement names is not called unused.
+    used = context.used_names | (_mentioned(tree) if context.report.has_errors else set())
     for kind, items, declared in (
         ("input", tree.inputs, context.inputs),
         ("function", tree.functions, context.functions),
@@ -102,10 +106,18 @@ def _check_content(tree: ast.Bridge, context: BridgeContext) -> None:
     ):
         for item in items:
             is_valid = declared.get(item.name.text) is not None
-            if is_valid and item.name.text not in context.used_names:
+            if is_valid and item.name.text not in used:
                 context.report.add(
                     codes.UNUSED_IN_BRIDGE,
                     item.name.span,
                     f"nothing uses the {kind} `{item.name.text}`",
                     help="remove it" if kind == "function" else "remove it, or use it in an output",
                 )
+
+
+def _mentioned(tree: ast.Bridge) -> set[str]:
+    """The words in the bodies of outputs, and in the values of outputs and hubs."""
+    parts = [value.span for hub in tree.hubs for value in hub.values]
+    for output in tree.outputs:
+        parts += [each.span for each in (output.value, *output.fields) if each is not None]
+    return {word for part in parts for word in re.findall(r"\w+", part.text)}

@@ -216,7 +216,8 @@ class OutputLink:
 
     def _lose_messages(self) -> str:
         """Drop all messages until there is a connection again: a reader that comes back would get
-        commands that are long out of date. Returns what to add to the warning."""
+        commands that are long out of date. Returns what to add to the warning.
+        """
         if not self._is_absent:
             self._is_absent = True
             self._absent_drops = self._drops
