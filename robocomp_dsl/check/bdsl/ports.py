@@ -171,11 +171,6 @@ def _check_address(
 def _address_problem(port: BridgePort, description: MiddlewareDescription) -> str:
     if not port.address:
         return "the address is empty"
-    if port.role is Role.IMPLEMENTS and not description.capabilities.fixed_address:
-        return (
-            f"ports over `{description.name}` have no address that could be chosen: callers find"
-            f" `{port.name}` by its name; leave out `at`"
-        )
     if not description.capabilities.external_peers:
         if port.role in (Role.PUBLISHES, Role.IMPLEMENTS):
             return (
