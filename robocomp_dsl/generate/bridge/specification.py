@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 
 from robocomp_dsl.generate import literals, names
 from robocomp_dsl.generate.bridge.bridge_names import BridgeNames
-from robocomp_dsl.generate.bridge.mapping import MappingCode, own_checks
+from robocomp_dsl.generate.bridge.mapping import MappingCode
 from robocomp_dsl.generate.bridge.methods import (
     BridgeMethod,
     function_method,
@@ -18,6 +18,7 @@ from robocomp_dsl.generate.bridge.methods import (
     service_method,
 )
 from robocomp_dsl.generate.bridge.places import place
+from robocomp_dsl.generate.bridge.received_messages import own_checks
 from robocomp_dsl.generate.bridge.wiring import BridgeWiring
 from robocomp_dsl.generate.literals import python_value, quoted
 from robocomp_dsl.generate.python.layout import INNER
