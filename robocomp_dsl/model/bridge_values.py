@@ -203,7 +203,8 @@ class Cast(Expression):
 
     number → number: widening, or exact by a check of the range at run time; a double is rounded to
     an integer; a `Counter` wraps around. Items → sequence, each with its type. A list of numbers
-    may be cast as a whole. Instant → the ROS struct `Time` (`sec`, `nanosec`).
+    may be cast as a whole. Instant, or `double [s]` → the ROS struct `Time` or `Duration` (`sec`,
+    `nanosec`).
     """
 
     value: Expression

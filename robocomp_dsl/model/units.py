@@ -86,7 +86,7 @@ def unknown_words(text: str) -> list[str]:
 def known_units() -> list[str]:
     """Symbols for suggestions, with the prefixes that are usual in robotics."""
     prefixed = (f"{p}{s}" for p in ("m", "k", "u", "c", "M", "G", "n") for s in _PREFIXED)
-    return [*_SYMBOLS, *prefixed]
+    return sorted({*_SYMBOLS, *prefixed})
 
 
 _TOKEN = re.compile(r"\*\*|[*/^()·.]|[+-]?\d+|[²³]|[A-Za-zµΩ°%_][A-Za-z0-9µΩ°_]*")

@@ -103,6 +103,33 @@ def test_bridge_sends_output_with_rate_on_component_clock() -> None:
     assert sent[-1][2] == 11_000_000_000
 
 
+def test_bridge_with_rate_and_policy_all_sends_each_set_once() -> None:
+    output = OutputSpec("out", "out", "send", ("h",), _sum, rate=10.0)
+    bridge, host, sent = _bridge(output, policy="all")
+    for number in range(3):
+        bridge.inputs["a"].receive(number)
+        bridge.inputs["b"].receive(number)
+        for _ in range(5):
+            host.clock.time += 0.1
+            bridge.send_due()
+    assert [message[0] for message in sent] == [0, 2, 4]
+
+
+@pytest.mark.parametrize(("policy", "count"), [("latest", 3), ("all", 1), ("synchronised", 3)])
+def test_bridge_output_of_hub_and_input_waits_for_new_set_of_policy_all(
+    policy: Any, count: int
+) -> None:
+    host, sent = Host(), []
+    inputs = tuple(InputSpec(name, name, "receive", "") for name in "abc")
+    hubs = (HubSpec("h", ("a", "b"), "", policy), HubSpec("c", ("c",), ""))
+    output = OutputSpec("out", "out", "send", ("h", "c"), lambda *_: (1,))
+    spec = BridgeSpec("x.bdsl", inputs, hubs, (output,))
+    bridge = RunningBridge(spec, host, {"out": sent.append}, Statistics())
+    for name in "abccc":
+        bridge.inputs[name].receive(1)
+    assert len(sent) == count
+
+
 def test_bridge_rate_changes_at_run_time() -> None:
     bridge, host, sent = _bridge()
     assert bridge.set_rate("out", 4.0) == 250.0

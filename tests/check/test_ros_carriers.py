@@ -83,3 +83,53 @@ def test_connection_of_other_types_is_a_finding(tmp_path: Path, connection: str,
 
 def test_connection_of_a_service_over_topics_only_is_a_finding(tmp_path: Path) -> None:
     assert "`dds` has no services" in _check(tmp_path, "client.Lamp -> server.Lamp", "dds")
+
+
+def _check_external(folder: Path, extern: str, connection: str) -> str:
+    """What `rcgen check` says of a component that is connected to a ROS 1 node."""
+    (folder / "Robot.idsl").write_text(IDSL)
+    (folder / "client.cdsl").write_text(CLIENT)
+    (folder / "app.ddsl").write_text(f"""
+import "client.cdsl";
+Deployment app
+{{
+  component client;
+  extern node over ros1 at "/node" {extern};
+  connect {connection};
+}};
+""")
+    return CliRunner().invoke(program, ["check", str(folder / "app.ddsl")]).output
+
+
+@pytest.mark.parametrize(
+    ("extern", "connection"),
+    [
+        ("publishes Voice", "node.Voice -> client.Voice"),
+        ("implements Lamp", "client.Lamp -> node.Lamp"),
+    ],
+)
+def test_ros_1_node_with_ros_types_is_connected(
+    tmp_path: Path, extern: str, connection: str
+) -> None:
+    assert "RC55" not in _check_external(tmp_path, extern, connection)
+
+
+@pytest.mark.parametrize(
+    ("extern", "connection", "operation"),
+    [
+        ("publishes Ticks", "node.Ticks -> client.Ticks", "tick"),
+        ("implements Adder", "client.Adder -> node.Adder", "add"),
+    ],
+)
+def test_ros_1_node_with_other_types_is_a_finding(
+    tmp_path: Path, extern: str, connection: str, operation: str
+) -> None:
+    output = _check_external(tmp_path, extern, connection)
+    assert f"programs of ROS know ROS types only: `{operation}`" in output
+
+
+@pytest.mark.parametrize(
+    "connection", ["client.Adder -> server.Adder", "server.Ticks -> client.Ticks"]
+)
+def test_components_exchange_other_types_over_ros_1(tmp_path: Path, connection: str) -> None:
+    assert "RC55" not in _check(tmp_path, connection, "ros1")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import threading
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ import pytest
 from robocomp_dsl.deploy.external_connection import CONNECTED, WAITING
 from robocomp_dsl.deploy.supervisor import external_connections
 from robocomp_dsl.deploy.supervisor.external_connections import ExternalConnections, open_connector
+from robocomp_dsl.deploy.supervisor.supervisor import Outcome
 from robocomp_dsl.model.deployment import ExternalConnection
 from robocomp_dsl.runtime.middleware.external_connector import ConnectorError
 from robocomp_dsl.runtime.middleware.yarp.connector import YarpConnector
@@ -19,6 +21,7 @@ from robocomp_dsl.runtime.middleware.yarp.connector import open_connector as of_
 from robocomp_dsl.runtime.middleware.yarp.name_client import NameClient
 from robocomp_dsl.runtime.middleware.yarp.name_server import NameServer
 from robocomp_dsl.source import Source
+from tests.deploy.supervisor_run import SupervisorRun, stop
 from tests.middleware.yarp.conftest import (
     LOOPBACK,
     SCAN,
@@ -178,3 +181,16 @@ def test_open_connector_names_what_is_wrong(
         open_connector("yarp").connected("/a", frozenset({"/b"}))
     with pytest.raises(ConnectorError, match="`local` cannot connect programs"):
         open_connector("local")
+
+
+def test_deployment_of_external_connections_only_runs_until_it_is_stopped(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(external_connections, "REPORT_WAITING_S", 0.0)
+    monkeypatch.setenv("YARP_CONFIG_HOME", str(tmp_path))
+    (tmp_path / "yarp.conf").write_text(f"{LOOPBACK} 1 yarp\n")
+    run = SupervisorRun(tmp_path)
+    run.plan = replace(run.plan, external_connections=(LINK,))
+    run.on(f"cannot connect {SOURCE} -> {TARGET}", stop)
+    assert run.run() == Outcome(0, "test")
+    assert "the name server cannot be reached" in run.texts("rcdeploy")[0]

@@ -160,6 +160,17 @@ def test_plan_shows_external_programs(tmp_path: Path) -> None:
     ]
 
 
+def test_plan_shows_connections_between_external_programs(tmp_path: Path) -> None:
+    text = 'connect bus "/a:o" -> "/b:i" carrier fast; connect bus "/a:o" -> "/c:i";'
+    planned = plan_of(deployment_of(tmp_path, text))
+    shown = "\n".join(as_text(planned))
+    assert "   /a:o -> /b:i over bus (fast)\n   /a:o -> /c:i over bus" in shown
+    assert as_data(planned)["external_connections"] == [
+        {"middleware": "bus", "source": "/a:o", "target": "/b:i", "carrier": "fast"},
+        {"middleware": "bus", "source": "/a:o", "target": "/c:i", "carrier": ""},
+    ]
+
+
 def test_select_group_keeps_its_external_programs(tmp_path: Path) -> None:
     text = """
         extern laser over rpc at "a" implements Laser;

@@ -101,10 +101,14 @@ def test_supervisor_applies_restart_policy(
 
 
 def test_supervisor_stops_when_component_is_not_ready_in_time(tmp_path: Path) -> None:
-    slow = scripted_process(tmp_path, "a", 'report("initialize"); wait()', start_timeout_s=0.5)
+    body = 'print("life"); report("initialize"); wait()'
+    slow = scripted_process(
+        tmp_path, "a", body, start_timeout_s=0.5, restart=Restart("on-failure", 1, 60)
+    )
     never = scripted_process(tmp_path, "c", "print('never')", after=("a",))
     run = SupervisorRun(tmp_path, slow, scripted_process(tmp_path, "b", STEADY), never)
     assert run.run() == Outcome(1, "failed: a")
+    assert run.texts("a") == ["life"] * 2
     assert run.row("a").note.startswith("not ready within 0.5 s")
     assert run.texts("c") == []
     assert run.row("c").note == "not started: a was not ready"
@@ -195,5 +199,5 @@ def test_supervisor_ignores_lifecycle_report_of_other_process(tmp_path: Path) ->
     impostor = scripted_process(
         tmp_path, "b", 'NAME = "a"; report("compute"); NAME = "b"; ' + STEADY
     )
-    silent = scripted_process(tmp_path, "a", "wait()", start_timeout_s=0.5)
+    silent = scripted_process(tmp_path, "a", "wait()", start_timeout_s=0.5, restart=NEVER)
     assert SupervisorRun(tmp_path, silent, impostor).run() == Outcome(1, "failed: a")

@@ -91,6 +91,16 @@ def test_deployment_page_shows_full_instance_name(tmp_path: Path) -> None:
     assert "runs as left/wander" in read(pages(ddsl)["deployments/d.html"]).text
 
 
+def test_deployment_page_shows_connections_between_external_programs(tmp_path: Path) -> None:
+    (tmp_path / "d.ddsl").write_text(
+        'Deployment d { program p { executable "p"; ready after 1 s; };'
+        ' connect yarp "/a:o" -> "/b:i" carrier fast_tcp; };'
+    )
+    text = read(pages(tmp_path / "d.ddsl")["deployments/d.html"]).text
+    assert "Connections between external programs" in text
+    assert all(word in text for word in ("/a:o", "/b:i", "yarp", "fast_tcp"))
+
+
 def test_deployment_page_shows_external_programs_and_monitors(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -26,6 +26,10 @@ CASES = [
         f"f(\n    a,\n    g(\n        {LONG},\n        {LONG},\n    ),\n)",
     ),
     (
+        Brackets("a + (", (LONG + LONG,), ")"),
+        f"a + (\n    {LONG}{LONG}\n)",
+    ),
+    (
         layout.subscript("list", LONG + LONG),
         f"list[\n    {LONG}{LONG}\n]",
     ),

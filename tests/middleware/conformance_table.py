@@ -26,6 +26,7 @@ CAPABILITIES = {
     "external_peers": "programs that are no components (`extern`)",
     "fixed_address": "address of an own port (`at`)",
     "ros_types_only": "only types that are imported from ROS",
+    "external_ros_types": "programs that are no components: only types that are imported from ROS",
     "sequence_numbers": "numbers of publications: losses in the network are counted",
 }
 _HEAD = """\

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import importlib.util
+import sys
 from collections.abc import Iterator
-from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -21,11 +21,9 @@ GENERATED = GOLDEN / "thrift" / "expected" / "eyes_generated" / "interfaces.py"
 @pytest.fixture(scope="module")
 def generated() -> Any:
     """The generated types and interfaces of the golden component `eyes`."""
-    spec = importlib.util.spec_from_file_location("imported_types_interfaces", Path(GENERATED))
-    assert spec
-    assert spec.loader
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    module = ModuleType("imported_types_interfaces")
+    sys.modules[module.__name__] = module
+    exec(compile(GENERATED.read_text("utf-8"), str(GENERATED), "exec"), vars(module))
     return module
 
 

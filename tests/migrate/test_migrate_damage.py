@@ -14,7 +14,7 @@ from robocomp_dsl.check.passes import check_ddsl
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.write import write
-from robocomp_dsl.migrate.finish import check_migrated_deployment, generate_components
+from robocomp_dsl.migrate.finish import check_migrated_files, generate_components
 from robocomp_dsl.migrate.migration import plan_migration
 from tests.support.generated_package import package_in
 
@@ -81,7 +81,7 @@ def test_migrate_damaged_folder_writes_valid_files(old: Path, tmp_path: Path, se
         write(out / place, generated)
         ast.parse((out / place / "specificworker.py").read_bytes())
         ast.parse((package_in(out / place) / "params.py").read_bytes())
-    check_migrated_deployment(plan, out, [], report)
+    check_migrated_files(plan, out, [], report)
     assert all(finding.span.source.path.name for finding in report)
     for deployment in () if report.has_errors else plan.deployments:
         check_report = Report()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from robocomp_dsl.check.bdsl.context import BridgeContext
 from robocomp_dsl.check.bdsl.fitting import fit_all
 from robocomp_dsl.check.bdsl.items import groups_of, length_of
-from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.target import ValueTarget
 from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.model.bridge_ports import TIME, BridgeFunction, ItemGroup, ItemsType, ValueType
@@ -36,7 +36,9 @@ def user_call(
     context: BridgeContext,
 ) -> Expression:
     """The call of a function that the user writes. Raises `FaultyExpression`."""
-    targets = [Target(f"the parameter `{p.name}`", p.type, p.unit) for p in function.parameters]
+    targets = [
+        ValueTarget(f"the parameter `{p.name}`", p.type, p.unit) for p in function.parameters
+    ]
     fitted = fit_all(arguments, targets, context)
     length = length_of(function.result)
     return Called(node.span, function.result, function.unit, length, function, fitted)

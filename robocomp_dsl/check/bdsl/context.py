@@ -51,6 +51,7 @@ class BridgeContext:
         self.functions: dict[str, BridgeFunction | None] = {}
         self.hubs: dict[str, BridgeHub | None] = {}
         self.used_names: set[str] = set()
+        self.port_names: set[str] = set()
         self._stated: dict[int, Expression] = {}
 
     def fail(
@@ -59,6 +60,14 @@ class BridgeContext:
         """Report an error of an expression. Raises `FaultyExpression`."""
         self.report.add(code, span, message, help=help_, fix=fix)
         raise FaultyExpression
+
+    def call_name(self, call: str, service: str) -> str:
+        """A port name for a call of `service`, unique without case in the bridge."""
+        longer = f"{service}_{call}"
+        names = (call, longer, *(f"{longer}{number}" for number in range(2, 1000)))
+        free = next(name for name in names if name.lower() not in self.port_names)
+        self.port_names.add(free.lower())
+        return free
 
     def state_unit(self, value: Expression) -> None:
         """Remember that the user stated the unit of `value` with `to`."""

@@ -16,7 +16,7 @@ from robocomp_dsl.check.bdsl.fitting import fit
 from robocomp_dsl.check.bdsl.items import field_of, joined_item_type
 from robocomp_dsl.check.bdsl.scopes import Scope, reject_field, reject_name
 from robocomp_dsl.check.bdsl.selections import selection
-from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.target import ValueTarget
 from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.bdsl.units import convert_to, declared_unit
 from robocomp_dsl.check.codes import bridge_values as codes
@@ -45,7 +45,7 @@ BUILT_IN = ("number", "text", "length", "stamp")
 _INT_LIMIT = 1 << 31
 
 
-def value_for(node: ast.Expression, target: Target, scope: Scope) -> Expression | None:
+def value_for(node: ast.Expression, target: ValueTarget, scope: Scope) -> Expression | None:
     """The expression as a value of `target`; None if it is faulty, which is reported."""
     try:
         enumerator = _enumerator(node, target, scope)
@@ -181,7 +181,7 @@ def _stamp(node: ast.FunctionCall, scope: Scope) -> Expression:
     return StampOf(node.span, TIME, "", None, scope.input(argument.name))
 
 
-def _enumerator(node: ast.Expression, target: Target, scope: Scope) -> Expression | None:
+def _enumerator(node: ast.Expression, target: ValueTarget, scope: Scope) -> Expression | None:
     """A name that is an enumerator of the target, and nothing else in the scope."""
     if not isinstance(node, ast.Reference) or not isinstance(target.type, Enum):
         return None

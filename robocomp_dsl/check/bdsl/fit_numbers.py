@@ -9,7 +9,7 @@ from typing import NoReturn
 
 from robocomp_dsl.check.bdsl.context import BridgeContext
 from robocomp_dsl.check.bdsl.items import same_type
-from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.target import ValueTarget
 from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.check.literals import join_names
@@ -31,7 +31,7 @@ from robocomp_dsl.model.types import DOUBLE, FLOAT, NUMBERS, Enum, Primitive
 FRACTIONS = (FLOAT, DOUBLE)
 
 
-def fit_scalar(value: Expression, target: Target, context: BridgeContext) -> Expression:
+def fit_scalar(value: Expression, target: ValueTarget, context: BridgeContext) -> Expression:
     """`value`, which is no list, struct or time, as a value of the target."""
     if isinstance(target.type, Enum) or not isinstance(target.type, Primitive):
         if not same_type(value.type, target.type):
@@ -89,7 +89,7 @@ def _checked(value: Expression) -> Expression:
 
 
 def _fit_constant(
-    value: ConstantValue, target: Target, type_: Primitive, context: BridgeContext
+    value: ConstantValue, target: ValueTarget, type_: Primitive, context: BridgeContext
 ) -> Expression:
     written = value.value
     if isinstance(written, str):
@@ -117,7 +117,7 @@ def _fit_constant(
 
 def reject(
     value: Expression,
-    target: Target,
+    target: ValueTarget,
     context: BridgeContext,
     help_: str = "",
     fix: Fix | None = None,
@@ -158,7 +158,7 @@ def _literal_advice(value: ConstantValue, target: Primitive) -> tuple[str, Fix |
     return "write a whole number" if isinstance(value.value, float) else "write a number", None
 
 
-def _enum_help(target: Target) -> str:
+def _enum_help(target: ValueTarget) -> str:
     if not isinstance(target.type, Enum):
         return ""
     names = [enumerator.name for enumerator in target.type.enumerators]

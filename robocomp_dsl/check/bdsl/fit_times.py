@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from robocomp_dsl.check.bdsl.context import BridgeContext
 from robocomp_dsl.check.bdsl.fit_numbers import reject
-from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.target import ValueTarget
 from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.bdsl.units import convert, nanoseconds_of
 from robocomp_dsl.check.codes import bridge_values as codes
@@ -22,7 +22,7 @@ def is_ros_time(type_: ValueType) -> bool:
     return isinstance(type_, Struct) and type_.ros_name in _TIMES
 
 
-def fit_time(value: Expression, target: Target, context: BridgeContext) -> Expression:
+def fit_time(value: Expression, target: ValueTarget, context: BridgeContext) -> Expression:
     """An instant for any target, or a number of seconds for a ROS struct."""
     if value.type != TIME:
         return _duration(value, target, context)
@@ -40,7 +40,7 @@ def fit_time(value: Expression, target: Target, context: BridgeContext) -> Expre
 
 
 def _number(
-    value: Expression, target: Target, type_: Primitive, context: BridgeContext
+    value: Expression, target: ValueTarget, type_: Primitive, context: BridgeContext
 ) -> Expression:
     nanoseconds = nanoseconds_of(target.unit)
     if not nanoseconds:
@@ -54,7 +54,7 @@ def _number(
     return TimeIn(value.span, type_, target.unit, None, value, nanoseconds)
 
 
-def _duration(value: Expression, target: Target, context: BridgeContext) -> Expression:
+def _duration(value: Expression, target: ValueTarget, context: BridgeContext) -> Expression:
     """A number with a unit of time as a ROS struct."""
     if value.type not in NUMBERS or not nanoseconds_of(value.unit):
         reject(value, target, context, "`now`, or a number such as `0.5 [s]`, fits")

@@ -18,7 +18,7 @@ from robocomp_dsl.check.bdsl.fit_numbers import (
 )
 from robocomp_dsl.check.bdsl.fit_times import fit_time, is_ros_time
 from robocomp_dsl.check.bdsl.items import groups_of, item_at, items_of, same_type
-from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.target import ValueTarget
 from robocomp_dsl.check.bdsl.type_words import a_type, type_text
 from robocomp_dsl.check.bdsl.units import convert
 from robocomp_dsl.check.codes import bridge_values as codes
@@ -35,7 +35,7 @@ from robocomp_dsl.model.bridge_values import (
 from robocomp_dsl.model.types import NUMBERS, Dictionary, Primitive, Sequence, Struct
 
 
-def fit(value: Expression, target: Target, context: BridgeContext) -> Expression:
+def fit(value: Expression, target: ValueTarget, context: BridgeContext) -> Expression:
     """`value` with the type and unit of `target`."""
     if isinstance(value.type, Struct) and value.type is target.type:
         return value
@@ -53,7 +53,7 @@ def fit(value: Expression, target: Target, context: BridgeContext) -> Expression
     return _fit_scalar(value, target, context)
 
 
-def _fit_scalar(value: Expression, target: Target, context: BridgeContext) -> Expression:
+def _fit_scalar(value: Expression, target: ValueTarget, context: BridgeContext) -> Expression:
     if value.is_list:
         item = item_at(value, 0) if value.length == 1 else None
         if item is None:
@@ -66,7 +66,7 @@ def _fit_scalar(value: Expression, target: Target, context: BridgeContext) -> Ex
     return fit_scalar(value, target, context)
 
 
-def _reject_list(value: Expression, target: Target, context: BridgeContext) -> NoReturn:
+def _reject_list(value: Expression, target: ValueTarget, context: BridgeContext) -> NoReturn:
     count = "a list" if value.length is None else f"a list of {value.length} items"
     text = value.span.text
     is_simple = _is_simple(value)
@@ -85,7 +85,7 @@ def _is_simple(value: Expression) -> bool:
     return value.span.text.replace("_", "").replace(".", "").isalnum()
 
 
-def _field_advice(value: Expression, struct: Struct, target: Target) -> tuple[str, Fix | None]:
+def _field_advice(value: Expression, struct: Struct, target: ValueTarget) -> tuple[str, Fix | None]:
     """Which field of a struct to select for a scalar."""
     fitting = [field.name for field in struct.fields if number_fits(field.type, target.type)]
     if not fitting:
@@ -98,7 +98,7 @@ def _field_advice(value: Expression, struct: Struct, target: Target) -> tuple[st
 
 
 def _fit_struct(
-    value: Expression, target: Target, struct: Struct, context: BridgeContext
+    value: Expression, target: ValueTarget, struct: Struct, context: BridgeContext
 ) -> Expression:
     if isinstance(value.type, Struct):
         reject(value, target, context, _same_fields(value, value.type, struct))
@@ -126,7 +126,7 @@ def _fit_struct(
 
 
 def fit_all(
-    values: Iterable[Expression], targets: Iterable[Target], context: BridgeContext
+    values: Iterable[Expression], targets: Iterable[ValueTarget], context: BridgeContext
 ) -> tuple[Expression, ...]:
     """Each value for its target. Raises `FaultyExpression` after all of them were checked."""
     fitted: list[Expression] = []
@@ -151,7 +151,7 @@ def _same_fields(value: Expression, source: Struct, target: Struct) -> str:
 
 
 def _fit_sequence(
-    value: Expression, target: Target, sequence: Sequence, context: BridgeContext
+    value: Expression, target: ValueTarget, sequence: Sequence, context: BridgeContext
 ) -> Expression:
     if not value.is_list:
         _reject_scalar(value, target, sequence, context)
@@ -171,7 +171,7 @@ def _fit_sequence(
 
 
 def _fit_items(
-    value: ListExpression, target: Target, sequence: Sequence, context: BridgeContext
+    value: ListExpression, target: ValueTarget, sequence: Sequence, context: BridgeContext
 ) -> Expression:
     """`{ a, b }`: each item by itself."""
     parts = fit_all(value.items, [target.item(sequence)] * len(value.items), context)
@@ -179,7 +179,7 @@ def _fit_items(
 
 
 def _check_length(
-    value: Expression, target: Target, sequence: Sequence, context: BridgeContext
+    value: Expression, target: ValueTarget, sequence: Sequence, context: BridgeContext
 ) -> None:
     size, bound = sequence.size, sequence.bound
     length = value.length
@@ -205,7 +205,7 @@ def _length_checked(value: Expression, sequence: Sequence) -> Expression:
 
 
 def _reject_scalar(
-    value: Expression, target: Target, sequence: Sequence, context: BridgeContext
+    value: Expression, target: ValueTarget, sequence: Sequence, context: BridgeContext
 ) -> NoReturn:
     text = f"{{ {value.span.text} }}"
     if isinstance(value.type, Primitive) and isinstance(sequence.element, Primitive):
@@ -215,7 +215,11 @@ def _reject_scalar(
 
 
 def _reject_items(
-    value: Expression, item: ValueType, target: Target, sequence: Sequence, context: BridgeContext
+    value: Expression,
+    item: ValueType,
+    target: ValueTarget,
+    sequence: Sequence,
+    context: BridgeContext,
 ) -> NoReturn:
     help_, fix = "", None
     if sequence.element in NUMBERS and item in NUMBERS:

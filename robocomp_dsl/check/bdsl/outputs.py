@@ -19,7 +19,7 @@ from robocomp_dsl.check.bdsl.operations import (
 )
 from robocomp_dsl.check.bdsl.ports import bridge_port
 from robocomp_dsl.check.bdsl.scopes import BridgeScope
-from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.target import ValueTarget
 from robocomp_dsl.check.bdsl.type_refs import UnitType
 from robocomp_dsl.check.bdsl.types_module import camel_case
 from robocomp_dsl.check.codes import bridge as codes
@@ -139,7 +139,7 @@ def _whole(
 ) -> Expression | None:
     """`= value` of an output with one parameter."""
     if len(params) == 1:
-        target = Target(f"the message of `{tree.name.text}`", params[0].type, params[0].unit)
+        target = ValueTarget(f"the message of `{tree.name.text}`", params[0].type, params[0].unit)
         return value_for(value, target, scope)
     names = " ".join(f"{param.name} = …;" for param in params)
     scope.context.report.add(
@@ -223,6 +223,6 @@ def _of_value(
     unit = "" if isinstance(message, Struct) else value.unit
     used = own_topic(PortKind.OUTPUT, tree.name, UnitType(message, unit), tree.span, context)
     param = used.operation.inputs[0]
-    target = Target(f"the message of `{tree.name.text}`", message, unit)
+    target = ValueTarget(f"the message of `{tree.name.text}`", message, unit)
     fitted = value_for(node, target, scope)
     return used, (BuiltValue(param, fitted),) if fitted else None

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from robocomp_dsl.check.bdsl.context import BridgeContext, FaultyExpression
 from robocomp_dsl.check.bdsl.scopes import reject_field
-from robocomp_dsl.check.bdsl.target import Target
+from robocomp_dsl.check.bdsl.target import ValueTarget
 from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.model.interface import Param
@@ -26,9 +26,9 @@ class ResolvedPath(Record):
     text: str
 
     @property
-    def target(self) -> Target:
+    def target(self) -> ValueTarget:
         """The end of the path as a target."""
-        return Target(f"`{self.text}`", self.type, self.unit)
+        return ValueTarget(f"`{self.text}`", self.type, self.unit)
 
 
 def field_path(
@@ -47,12 +47,14 @@ def _resolve(path: ast.Path, params: tuple[Param, ...], context: BridgeContext) 
     if only is not None and isinstance(only.type, Struct):
         fields = [field.name for field in only.type.fields]
         if first.name.text in fields or first.name.text != only.name or not rest:
-            return _follow(path, only, list(path.parts), Target("", only.type, only.unit), context)
+            return _follow(
+                path, only, list(path.parts), ValueTarget("", only.type, only.unit), context
+            )
     names = [param.name for param in params]
     if first.name.text not in names:
         reject_field(first.name, "the message" if only else "the operation", names, context)
     param = params[names.index(first.name.text)]
-    target = Target("", param.type, param.unit)
+    target = ValueTarget("", param.type, param.unit)
     parts: list[Field | int] = []
     target = _indexed(first, target, parts, context)
     resolved = _follow(path, param, rest, target, context)
@@ -63,7 +65,7 @@ def _follow(
     path: ast.Path,
     param: Param,
     parts: list[ast.PathPart],
-    target: Target,
+    target: ValueTarget,
     context: BridgeContext,
 ) -> ResolvedPath:
     resolved: list[Field | int] = []
@@ -83,10 +85,10 @@ def _follow(
 
 def _indexed(
     part: ast.PathPart,
-    target: Target,
+    target: ValueTarget,
     resolved: list[Field | int],
     context: BridgeContext,
-) -> Target:
+) -> ValueTarget:
     """The target, or the item that the index of `part` selects."""
     if part.index is None:
         return target

@@ -46,14 +46,15 @@ def bridge_port(
     used: UsedOperation,
     context: BridgeContext,
     qos_tree: QosTree | None = None,
+    owner: str = "",
 ) -> BridgePort | None:
-    """The port, or None if its middleware is unknown or unable."""
+    """The port, or None if its middleware is unknown or unable; `owner`: the service of a call."""
     middleware = port_middleware(place, context)
     qos = qos_of(qos_tree, context.report)
     if not middleware:
         return None
     port = BridgePort(
-        name.text,
+        context.call_name(name.text, owner) if owner else name.text,
         used.role,
         used.interface,
         used.operation,

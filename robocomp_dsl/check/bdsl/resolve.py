@@ -39,6 +39,8 @@ def resolve_bdsl(
     valid = check_names(
         (*tree.inputs, *tree.functions, *tree.hubs, *tree.outputs, *tree.services), context
     )
+    for ports in (tree.inputs, tree.outputs, tree.services):
+        context.port_names.update(port.name.text.lower() for port in ports)
     _declare(tree, valid, context)
     hubs = HubResolver([hub for hub in tree.hubs if id(hub) in valid], context)
     resolved_hubs = hubs.resolve_all()

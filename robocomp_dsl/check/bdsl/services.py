@@ -28,7 +28,7 @@ def resolve_service(tree: ast.Service, context: BridgeContext) -> BridgeService 
     valid = check_names(tree.calls, context)
     for call in tree.calls:
         if id(call) in valid:
-            calls[call.name.text] = _call(call, scope)
+            calls[call.name.text] = _call(call, tree.name.text, scope)
     reply = build_values(reply_parameters(used.operation), tree.fields, scope)
     resolved = [call for call in calls.values() if call is not None]
     if port is None or reply is None or len(resolved) != len(tree.calls):
@@ -36,12 +36,12 @@ def resolve_service(tree: ast.Service, context: BridgeContext) -> BridgeService 
     return BridgeService(tree.name.text, port, tuple(resolved), reply, tree.doc)
 
 
-def _call(tree: ast.Call, scope: ServiceScope) -> BridgeCall | None:
-    """A call, whose arguments use the request and earlier calls."""
+def _call(tree: ast.Call, service: str, scope: ServiceScope) -> BridgeCall | None:
+    """A call of `service`, whose arguments use the request and earlier calls."""
     used = used_operation(PortKind.CALL, tree.name, tree.type, scope.context)
     if used is None:
         return None
-    port = bridge_port(PortKind.CALL, tree.name, tree.place, used, scope.context)
+    port = bridge_port(PortKind.CALL, tree.name, tree.place, used, scope.context, owner=service)
     params = used.operation.inputs
     arguments = build_values(params, tree.fields, scope)
     if port is None or arguments is None:

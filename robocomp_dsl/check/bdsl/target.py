@@ -7,18 +7,18 @@ from robocomp_dsl.model.types import Field, Sequence, Type
 from robocomp_dsl.record import ValueRecord
 
 
-class Target(ValueRecord):
+class ValueTarget(ValueRecord):
     """What a value is for; `name` is for messages, such as `` `header.stamp` ``."""
 
     name: str
     type: Type
     unit: str = ""
 
-    def field(self, field: Field) -> Target:
+    def field(self, field: Field) -> ValueTarget:
         """A field of the target; without a unit of its own it has that of the struct."""
         inherited = self.unit if has_numbers(field.type) else ""
-        return Target(f"`{field.name}`", field.type, field.unit or inherited)
+        return ValueTarget(f"`{field.name}`", field.type, field.unit or inherited)
 
-    def item(self, sequence: Sequence) -> Target:
+    def item(self, sequence: Sequence) -> ValueTarget:
         """An item of the target, which is a `sequence`."""
-        return Target(f"an item of {self.name}", sequence.element, self.unit)
+        return ValueTarget(f"an item of {self.name}", sequence.element, self.unit)

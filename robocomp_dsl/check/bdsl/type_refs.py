@@ -9,11 +9,12 @@ from robocomp_dsl.check.bdsl.context import BridgeContext
 from robocomp_dsl.check.bdsl.types_module import camel_case
 from robocomp_dsl.check.bdsl.units import declared_unit
 from robocomp_dsl.check.codes import bridge as codes
+from robocomp_dsl.check.codes import bridge_values as value_codes
 from robocomp_dsl.check.names.duplicates import unique_by_name
 from robocomp_dsl.check.names.type_names import TypeResolver
 from robocomp_dsl.diagnostics import Edit, Fix, Note
 from robocomp_dsl.model.interface import Interface, Param
-from robocomp_dsl.model.types import Field, Struct, Type
+from robocomp_dsl.model.types import Field, Sequence, Struct, Type
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.syntax.ast import bdsl as ast
 from robocomp_dsl.syntax.ast.base import Name, QualifiedName
@@ -33,9 +34,28 @@ def resolve_type(ref: ast.TypeRef, name: str, context: BridgeContext) -> UnitTyp
         return None
     type_ = base
     for length in ref.lengths:
+        if _has_length(type_, context):
+            _report_inner_length(ref, context)
+            return None
         size = length.value if length else 0
         type_ = context.types.sequence(type_, int(size), ref.span)
     return UnitType(type_, declared_unit(ref.unit, type_, context.report))
+
+
+def _has_length(type_: Type, context: BridgeContext) -> bool:
+    """Whether the bridge declares the length of a list in values of the type."""
+    if isinstance(type_, Struct):
+        return any(_has_length(field.type, context) for field in type_.fields)
+    return isinstance(type_, Sequence) and type_.size > 0 and type_.module == context.types.name
+
+
+def _report_inner_length(ref: ast.TypeRef, context: BridgeContext) -> None:
+    context.report.add(
+        value_codes.VALUE_LENGTH,
+        ref.span,
+        "the lengths of lists in a list cannot be declared: they are not checked at run time",
+        help="leave out the inner length, as in `double[][2]`",
+    )
 
 
 def resolve_parameters(

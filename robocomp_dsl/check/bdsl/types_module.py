@@ -40,7 +40,7 @@ class TypesModule:
         self._sequences: dict[tuple[object, int], Sequence] = {}
         self._structs: dict[object, Struct] = {}
         self._interfaces: list[Interface] = []
-        self._kept: list[Type] = []
+        self._function_types: list[Type] = []
 
     def sequence(self, element: Type, size: int, span: Span) -> Sequence:
         """A list of `element`; `size` 0: of any length. Equal lists are one declaration."""
@@ -60,7 +60,7 @@ class TypesModule:
 
     def keep(self, type_: Type) -> None:
         """Declare `type_` in the module: a function uses it."""
-        self._kept.append(type_)
+        self._function_types.append(type_)
 
     def interface(
         self, name: str, operation: str, inputs: tuple[Param, ...], span: Span, result: Type | None
@@ -75,7 +75,7 @@ class TypesModule:
     def module(self, imported: Iterable[Module], doc: str) -> Module | None:
         """The module, importing those of `imported` that it uses; None if it is empty."""
         used: dict[int, Declaration] = {}
-        for type_ in self._kept:
+        for type_ in self._function_types:
             _collect(type_, used)
         for interface in self._interfaces:
             for operation in interface.operations:

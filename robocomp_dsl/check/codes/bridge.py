@@ -107,7 +107,7 @@ arrived anew.
 
 Wrong:
 
-    rate 0 Hz;
+    rate 20000 Hz;
 
 Right:
 

@@ -176,16 +176,18 @@ def _problems(connection: Connection, name: str, capabilities: Capabilities) -> 
                 if capabilities.valid_names and not re.fullmatch(capabilities.valid_names, word):
                     message = f"`{word}` is not a valid name over `{name}`"
                     yield _Problem(codes.UNSUITABLE_MIDDLEWARE, message)
-    if capabilities.ros_types_only:
-        yield from _ros_problems(connection.source_port, name)
+    external = any(isinstance(instance, External) for instance, _ in ends)
+    if capabilities.ros_types_only or (external and capabilities.external_ros_types):
+        subject = f"`{name}` carries" if capabilities.ros_types_only else "programs of ROS know"
+        yield from _ros_problems(connection.source_port, subject)
     for item in required_qos(connection.qos, is_topic=connection.source_port.role.is_topic):
         if item not in capabilities.qos:
             message = f"`{name}` does not honour `{QOS_WORDS.get(item, item)}`"
             yield _Problem(codes.UNSUPPORTED_QOS, message)
 
 
-def _ros_problems(port: Port, name: str) -> Iterator[_Problem]:
-    """The operations of a port that ROS cannot express."""
+def _ros_problems(port: Port, subject: str) -> Iterator[_Problem]:
+    """The operations of a port that ROS cannot express; `subject` is what needs ROS types."""
     for operation in port.interface.operations:
         is_topic = port.role.is_topic or operation.pattern is Pattern.COMMAND
         if not (operation.ros_topic if is_topic else operation.ros_service):
@@ -195,7 +197,7 @@ def _ros_problems(port: Port, name: str) -> Iterator[_Problem]:
                 else "the request and response of one imported `.srv`"
             )
             message = (
-                f"`{name}` carries ROS types only: `{operation.name}` of"
+                f"{subject} ROS types only: `{operation.name}` of"
                 f" `{port.interface.name}` needs {types}"
             )
             yield _Problem(codes.UNSUITABLE_MIDDLEWARE, message)

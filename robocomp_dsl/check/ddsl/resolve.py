@@ -65,7 +65,7 @@ def resolve_ddsl(
     }
     known = {name: node for name, node in resolved.items() if node is not None}
     unclear = resolved.keys() - known.keys()
-    if not trees and not tree.groups:
+    if not (trees or tree.groups or tree.external_connections):
         report.add(codes.EMPTY_DEPLOYMENT, tree.name.span, f"`{tree.name.text}` has no components")
     report_shared_ports([node for node, _ in trees], report)
     order = [known[name] for name in start_order(scope, report) if name in known]

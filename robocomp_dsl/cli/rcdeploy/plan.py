@@ -120,6 +120,8 @@ def as_text(plan: Plan) -> Iterator[str]:
         yield "connections that rcdeploy makes and keeps:"
     for connection in plan.external_connections:
         yield f"   {describe_connection(connection)}"
+    if not plan.processes:
+        return
     yield ""
     yield "stops: " + ", then ".join(" and ".join(wave) for wave in plan.shutdown_batches())
 

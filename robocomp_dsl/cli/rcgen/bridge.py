@@ -1,7 +1,7 @@
 """`rcgen bridge`: generates a component that joins topics and services of several middlewares.
 
-In: a BDSL file. Out: the files of a component's folder, written or only compared; findings on
-standard error.
+In: a BDSL file, or a configuration of yarp-bottle-generator. Out: the files of a component's
+folder, written or only compared; findings on standard error.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("file", type=click.Path(readable=False, path_type=Path), metavar="X.bdsl")
+@click.argument("file", type=click.Path(readable=False, path_type=Path), metavar="X.bdsl|X.ini")
 @click.option(
     "-o",
     "output",
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     "--dry-run", is_flag=True, help="Write nothing; list the files that would be written."
 )
 @click.option("-q", "quiet", is_flag=True, help="Print findings only.")
+@options.topic_types
 @options.output_format
 @options.folders
 def command(
@@ -49,20 +50,25 @@ def command(
     quiet: bool,
     output_format: str,
     folders: tuple[Path, ...],
+    topic_types: tuple[str, ...],
     **modes: bool,
 ) -> None:
     """Generate a bridge: a component that joins topics and services of several middlewares.
 
     The descriptions, `main.py` and `NAME_generated/` are rewritten each time; `specificworker.py`,
     with the functions that the file declares, `README.md` and `etc/config.yaml` are written once
-    and then belong to you.
+    and then belong to you. X.ini is a configuration of yarp-bottle-generator, as it is; X.bdsl is
+    written from it. The types of the ROS topics that it reads come from --type, or from the ROS
+    master if it runs.
     """
     mode = selected_mode(modes)
     report = Report()
     folder = output or file.parent
     workspace = Workspace(folders)
-    bridge = _bridge(file, workspace, report)
+    types = options.parse_topic_types(topic_types)
+    bridge, converted = _bridge(file, folder, types, workspace, report)
     files = _files(bridge, folder, workspace, report, writes=not mode) if bridge else []
+    files = [*converted, *files] if files else []
     options.print_findings(report.sorted(), output_format, sys.stderr)
     if not files:
         raise CliError(EXIT_FINDINGS)
@@ -72,12 +78,18 @@ def command(
         raise CliError(EXIT_FINDINGS, str(error)) from None
 
 
-def _bridge(file: Path, workspace: Workspace, report: Report) -> Bridge | None:
-    """The bridge of a file without errors."""
+def _bridge(
+    file: Path, folder: Path, types: dict[str, str], workspace: Workspace, report: Report
+) -> tuple[Bridge | None, list[OutputFile]]:
+    """The bridge of a file without errors, and the BDSL file that was converted from it."""
     from robocomp_dsl.check.passes import check_bdsl  # noqa: PLC0415 - late
 
+    if file.suffix.lower() == ".ini":
+        from robocomp_dsl.cli.rcgen.bottle_generator import convert  # noqa: PLC0415 - rarely
+
+        return convert(file, folder, types, workspace, report)
     found = check_bdsl(file, workspace, report)
-    return None if report.has_errors else found
+    return None if report.has_errors else found, []
 
 
 def _files(

@@ -252,7 +252,8 @@ class Supervisor:
         elapsed = time.monotonic() - started
         count = len(self._processes)
         subject = f"all {count} components are" if count > 1 else "the component is"
-        self.log(f"{subject} ready after {elapsed:.2f} s")
+        if count:
+            self.log(f"{subject} ready after {elapsed:.2f} s")
         if self.options.duration_s is not None:
             await asyncio.sleep(self.options.duration_s)
             self.stop(f"duration of {self.options.duration_s:g} s is over")

@@ -22,6 +22,7 @@ from robocomp_dsl.model.bridge_ports import ItemsType, TimeType
 from robocomp_dsl.model.types import DOUBLE, FLOAT, NUMBERS, Enum, Primitive, Sequence, Struct
 
 _TIME_FIELDS = 2
+_SECOND = "1_000_000_000"
 
 
 class ExpressionPrinter:
@@ -144,8 +145,10 @@ class ExpressionPrinter:
 
     def _cast(self, node: bv.Cast) -> str:
         text, source, target = self.text(node.value), node.value.type, node.type
-        if isinstance(source, TimeType) and isinstance(target, Struct):
-            return self._time(text, target)
+        if isinstance(target, Struct):
+            is_time = isinstance(source, TimeType)
+            instant = text if is_time else f"values.nanoseconds_of({text}, {_SECOND})"
+            return self._time(instant, target)
         if isinstance(target, Primitive) and isinstance(source, Primitive):
             return _number(text, source, target, is_counter=isinstance(node.value, bv.Counter))
         if isinstance(target, (Sequence, ItemsType)):

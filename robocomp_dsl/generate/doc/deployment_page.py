@@ -30,6 +30,7 @@ from robocomp_dsl.model.deployment import (
     Deployment,
     Export,
     External,
+    ExternalConnection,
     Group,
     Host,
     Instance,
@@ -73,6 +74,11 @@ def _blocks(deployment: Deployment, site: DocumentationSite) -> Iterator[Block]:
         yield Heading(2, plain_text("External programs"), "externals")
     columns = ("program", "interface", "how", "over", "address", "what it is")
     yield from data_table("External programs", columns, externals)
+    links = [TableRow(_external_connection(link)) for link in deployment.external_connections]
+    title = "Connections between external programs"
+    if links:
+        yield Heading(2, plain_text(title), "external-connections")
+    yield from data_table(title, ("from", "to", "over", "carrier"), links)
     groups = [TableRow(_group(group)) for group in deployment.groups]
     if groups:
         yield Heading(2, plain_text("Groups"), "groups")
@@ -165,6 +171,15 @@ def _external(external: External, site: DocumentationSite) -> tuple[Inlines, ...
         inline_code(external.middleware),
         inline_code(external.address),
         flatten_doc(external.doc),
+    )
+
+
+def _external_connection(link: ExternalConnection) -> tuple[Inlines, ...]:
+    return (
+        inline_code(link.source),
+        inline_code(link.target),
+        inline_code(link.middleware),
+        plain_text(link.carrier),
     )
 
 

@@ -79,10 +79,15 @@ def laid_out(item: Item, indent: str = "", used: int = 0, after: int = 0) -> str
     is_alone = item.head.startswith("def ") and len(item.items) == 1
     if _ARGUMENTS.search(item.head) and not is_alone and len(inner) + len(body) <= WIDTH:
         return f"{item.head}\n{inner}{body}\n{indent}{item.tail}"
-    # A subscript with one item must not get a comma: that would make it a tuple.
-    comma = "" if item.head.endswith("[") and len(item.items) == 1 else ","
+    comma = "" if len(item.items) == 1 and _is_single(item) else ","
     rows = [f"{inner}{laid_out(i, inner, 0, len(comma))}{comma}\n" for i in item.items]
     return f"{item.head}\n{''.join(rows)}{indent}{item.tail}"
+
+
+def _is_single(item: Brackets) -> bool:
+    """Whether a comma after a single item would make it a tuple: a subscript, `a * (b + c)`."""
+    is_group = item.head.endswith("(") and not _ARGUMENTS.search(item.head)
+    return item.head.endswith("[") or (is_group and not item.is_tuple)
 
 
 def statement(prefix: str, item: Item, indent: str = "") -> str:

@@ -24,6 +24,7 @@ def middleware_names(tree: object) -> Iterator[Name]:
             if deployment.middleware:
                 yield deployment.middleware
             yield from (external.over for external in deployment.externals)
+            yield from (link.middleware for link in deployment.external_connections)
             yield from _in_block(deployment)
         case bdsl.File(bridge=bdsl.Bridge() as bridge):
             if bridge.middleware:
@@ -66,6 +67,8 @@ def describe_middleware(written: str, known: KnownMiddlewares) -> str:
     ]
     if can.external_peers:
         lines.append("external programs")
+    if can.external_port_names:
+        lines.append("connects external programs with each other")
     if can.qos:
         lines.append(f"quality of service: {', '.join(sorted(can.qos))}")
     if description.requires:

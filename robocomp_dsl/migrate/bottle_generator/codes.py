@@ -1,4 +1,4 @@
-"""RC99x: the findings of a configuration of yarp-bottle-generator.
+"""RC980, RC99x: the findings of a configuration of yarp-bottle-generator.
 
 An error: the original does something else than the file says, or cannot build its program. A
 warning: the file is unusual, but has one meaning only.
@@ -187,5 +187,18 @@ UNUSUAL = Code(
 A comma behind the last name of `ports`, and a `ros_msg_name` without its package, are accepted:
 there is one name, and one such type. Correct them, because yarp-bottle-generator takes the comma as
 a part of the name.
+""",
+)
+
+FILE_EXISTS = Code(
+    "RC980",
+    Severity.ERROR,
+    "the BDSL file exists",
+    """\
+`rcgen bridge X.ini` writes X.bdsl and generates the bridge from it. A file of this name that was
+not generated from X.ini is kept. Once you edit the bridge itself, use
+
+    rcgen migrate X.ini     # writes X-migrated/X.bdsl, which is yours
+    rcgen bridge X.bdsl
 """,
 )

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.bridge.inputs import BridgedInput
+from collections.abc import Callable
 
 NANOSECONDS = 1_000_000_000
 
@@ -17,12 +13,13 @@ class MessageContext:
     `now_ns` is the same for all uses in the message, in ns since the epoch, or of simulated time.
     `counter` is the number of messages that this output has sent, from 0. `field` is the path of
     the field or the name of the hub that is being computed, for messages about errors.
+    `stamp_ns(name)` is the time stamp of the newest message of an input, in ns.
     """
 
-    __slots__ = ("_inputs", "counter", "field", "now_ns")
+    __slots__ = ("counter", "field", "now_ns", "stamp_ns")
 
-    def __init__(self, inputs: Mapping[str, BridgedInput]) -> None:
-        self._inputs = inputs
+    def __init__(self, stamp_ns: Callable[[str], int]) -> None:
+        self.stamp_ns = stamp_ns
         self.now_ns = 0
         self.counter = 0
         self.field = ""
@@ -32,8 +29,3 @@ class MessageContext:
         self.now_ns = now_ns
         self.counter = counter
         self.field = ""
-
-    def stamp_ns(self, name: str) -> int:
-        """The time stamp of the newest message of an input, in ns."""
-        newest = self._inputs[name].newest
-        return newest.stamp_ns if newest else 0

@@ -55,8 +55,8 @@ class BridgeCounts:
 class LossReport:
     """Counts and reports the losses of one input, output or service.
 
-    `what` names it in messages, as in ``input `left` ``; `operation` has the counts that
-    `rcdeploy stats` shows.
+    The same loss at the same place is logged once per interval. `what` names the port in messages,
+    as in ``input `left` ``; `operation` has the counts that `rcdeploy stats` shows.
     """
 
     def __init__(self, what: str, operation: OperationCounts, log: logging.Logger) -> None:
@@ -83,6 +83,6 @@ class LossReport:
     def _report(self, verb: str, reason: str, text: str, place: str) -> None:
         count = self.counts.dropped[reason] + 1
         self.counts.dropped[reason] = count
-        if self._throttle.allows(reason):
+        if self._throttle.allows(f"{reason} {place}"):
             so_far = f"; {count} so far" if count > 1 else ""
             self._log.warning("%s: %s: %s (%s)%s", self._what, verb, text, place, so_far)

@@ -47,6 +47,8 @@ _NANOSECONDS = 1_000_000_000
 class LatestHub:
     """The newest message of each input; a new set with each message after the first set."""
 
+    uses_once = False
+
     def __init__(self, spec: HubSpec, _drop: Drop) -> None:
         self.spec = spec
         self.max_age = spec.max_age
@@ -74,7 +76,12 @@ class LatestHub:
 
 
 class QueueHub:
-    """Base of the hubs that use every message at most once."""
+    """Base of the hubs that use every message at most once.
+
+    `uses_once`: an output uses each set at most once, also at a rate.
+    """
+
+    uses_once = False
 
     def __init__(self, spec: HubSpec, drop: Drop) -> None:
         self.spec = spec
@@ -103,6 +110,8 @@ class QueueHub:
 
 class AllHub(QueueHub):
     """The n-th message of each input, in order of arrival."""
+
+    uses_once = True
 
     def add(self, index: int, message: ReceivedMessage) -> bool:
         """Take a message of an input; returns whether there is a new set."""

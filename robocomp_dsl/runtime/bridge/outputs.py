@@ -12,7 +12,7 @@ from typing import Any
 from robocomp_dsl.runtime.bridge.context import MessageContext
 from robocomp_dsl.runtime.bridge.counts import BridgeCounts, LossReport
 from robocomp_dsl.runtime.bridge.failures import describe_failure
-from robocomp_dsl.runtime.bridge.hubs import Hub, ReceivedMessage, age_of
+from robocomp_dsl.runtime.bridge.hubs import Hub, MessageSet, ReceivedMessage, age_of
 from robocomp_dsl.runtime.bridge.spec import OutputSpec
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 
@@ -41,6 +41,7 @@ class BridgedOutput:
         self.counts: BridgeCounts = losses.counts
         self.is_scheduled = spec.rate > 0
         self._hubs = tuple(hubs)
+        self._used: list[MessageSet | None] = [None] * len(self._hubs)
         self._publish = publish
         self._build = spec.build
         self._worker = worker
@@ -59,14 +60,17 @@ class BridgedOutput:
         if cause is not None and self.is_scheduled:
             return False
         sets: list[tuple[Any, ...]] = []
-        for hub in self._hubs:
+        found: list[MessageSet | None] = []
+        for hub, used in zip(self._hubs, self._used, strict=True):
             messages = hub.messages
-            if messages is None:
+            if messages is None or (hub.uses_once and messages is used):
                 return False
             if hub.max_age and age_of(messages, self._now()) > hub.max_age:
                 self._report_age(hub)
                 return False
+            found.append(messages)
             sets.append(tuple([message.value for message in messages]))
+        self._used = found
         context = self._context
         context.begin(self._now_ns(), self.counts.messages)
         try:

@@ -81,6 +81,11 @@ class RunningBridge:
         self.schedule = RateSchedule({s.name: s.rate for s in spec.outputs})
         self._connect()
 
+    def _stamp_ns(self, name: str) -> int:
+        """The time stamp of the newest message of an input, in ns; 0 without any."""
+        newest = self.inputs[name].newest
+        return newest.stamp_ns if newest else 0
+
     def _simulated_ns(self) -> int:
         return round(self._now() * NANOSECONDS)
 
@@ -105,7 +110,7 @@ class RunningBridge:
             [self.hubs[name] for name in spec.hubs],
             publish,
             self._worker,
-            MessageContext(self.inputs),
+            MessageContext(self._stamp_ns),
             self._losses("output", spec),
             self._statistics.of(spec.port, spec.operation),
             self._now,
@@ -114,7 +119,7 @@ class RunningBridge:
 
     def _service(self, spec: ServiceSpec) -> BridgedService:
         def create_context(counter: int) -> MessageContext:
-            context = MessageContext(self.inputs)
+            context = MessageContext(self._stamp_ns)
             context.begin(self._now_ns(), counter)
             return context
 

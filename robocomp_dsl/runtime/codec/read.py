@@ -12,6 +12,12 @@ from typing import Any
 
 import numpy as np
 
+from robocomp_dsl.runtime.codec.message_reader import (
+    MessageReader,
+    bools,
+    check_length,
+    check_text_length,
+)
 from robocomp_dsl.runtime.codec.struct_arrays import bad_element, begin, unpack
 from robocomp_dsl.runtime.codec.wire_profile import (
     CDR,
@@ -23,12 +29,10 @@ from robocomp_dsl.runtime.data.layout import packed_layout, padding, row_layout
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
     Array,
-    Dictionary,
     Enum,
     Fields,
     Primitive,
     Sequence,
-    Type,
 )
 from robocomp_dsl.runtime.data.struct import Struct
 from robocomp_dsl.runtime.errors import MalformedMessage
@@ -60,21 +64,7 @@ def read_number(message: Any, limit: int, what: str) -> int:
     return number
 
 
-def check_length(type_: Array | Sequence, count: int, path: str, offset: int) -> None:
-    """Raise `MalformedMessage` for a number of elements that the type does not have."""
-    if type_.size and count != type_.size:
-        raise MalformedMessage(f"{count} elements instead of {type_.size}", path, offset)
-    if type_.bound and count > type_.bound:
-        raise MalformedMessage(f"{count} elements, more than {type_.bound}", path, offset)
-
-
-def check_text_length(type_: Primitive, size: int, path: str, offset: int) -> None:
-    """Raise `MalformedMessage` for a text of more bytes than the type has."""
-    if type_.bound and size > type_.bound:
-        raise MalformedMessage(f"a text of {size} bytes, longer than {type_.bound}", path, offset)
-
-
-class _Reader:
+class _Reader(MessageReader):
     """The bytes and the read position; all offsets from the start of the message."""
 
     def __init__(self, message: Any, wire: WireProfile) -> None:
@@ -108,18 +98,12 @@ class _Reader:
         self.at = start + size
         return start
 
-    def finish(self) -> None:
-        """Raise for bytes after the end of the message."""
-        if self.at != len(self.data):
-            extra = len(self.data) - self.at
-            raise MalformedMessage(f"{extra} bytes more than the message has", "", self.at)
-
     def number(self, code: str, path: str) -> Any:
         """One number."""
         form = struct.Struct((">" if self.big else "<") + code)
         return form.unpack_from(self.data, self.take(form.size, path, form.size))[0]
 
-    def count(self, path: str, size: int) -> int:
+    def count(self, path: str, size: int = 1) -> int:
         """A count of elements of at least `size` bytes, limited by the remaining bytes."""
         count: int = self.number("I", path)
         left = len(self.data) - self.at
@@ -136,37 +120,6 @@ class _Reader:
         count = self.count(path, size)
         check_length(type_, count, path, self.at - 4)
         return count
-
-    def value(self, type_: Type, path: str) -> Any:
-        """One value of any type."""
-        value: Any
-        match type_:
-            case Primitive():
-                value = self.primitive(type_, path)
-            case Array():
-                value = self.array(type_, path)
-            case Sequence():
-                value = self.sequence(type_, path)
-            case Dictionary():
-                value = self.dictionary(type_, path)
-            case _ if issubclass(type_, Enum):
-                value = self.member(type_, path)
-            case _ if issubclass(type_, Struct):
-                value = self.record(type_, path)
-            case _:
-                value = self.struct_array(type_, path)
-        return value
-
-    def primitive(self, type_: Primitive, path: str) -> Any:
-        """A number, a bool or a string."""
-        if type_.is_text:
-            return self.text(type_, path)
-        if type_ is BOOL:
-            number = self.number("B", path)
-            if number > 1:
-                raise MalformedMessage(f"{number} is no bool (0 or 1)", path, self.at - 1)
-            return bool(number)
-        return self.number(type_.code, path)
 
     def text(self, type_: Primitive, path: str) -> str:
         """Length, UTF-8, NUL."""
@@ -211,14 +164,6 @@ class _Reader:
             raise MalformedMessage(f"{count} elements claimed", path, self.at - 4)
         return [self.value(type_.element, f"{path}[{i}]") for i in range(count)]
 
-    def dictionary(self, type_: Dictionary, path: str) -> dict[Any, Any]:
-        """Pairs; of duplicate keys the last one is used."""
-        pairs = {}
-        for index in range(self.count(path, 2)):
-            key = self.value(type_.key, f"{path}[{index}].key")
-            pairs[key] = self.value(type_.value, f"{path}[{index}].value")
-        return pairs
-
     def array(self, type_: Array, path: str) -> Any:
         """Numbers: a view of the message, or a copy if the byte order differs."""
         primitive = type_.element
@@ -227,12 +172,7 @@ class _Reader:
         start = self.take(count * primitive.size, path, primitive.size) if count else self.at
         array = np.ndarray(count, self.ordered(dtype), self.data, start)
         if primitive is BOOL:
-            wrong = array > 1
-            if wrong.any():
-                index = int(wrong.argmax())
-                where = f"{path}[{index}]"
-                raise MalformedMessage(f"{array[index]} is no bool (0 or 1)", where, start + index)
-            return array.view(np.bool_)
+            return bools(array, path, start)
         return self.native(array, dtype)
 
     def ordered(self, dtype: np.dtype[Any]) -> np.dtype[Any]:

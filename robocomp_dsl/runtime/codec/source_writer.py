@@ -32,6 +32,14 @@ class SourceWriter:
         self._count += 1
         return f"{letter}{self._count}"
 
+    def assigned(self, letter: str, expression: str) -> str:
+        """A variable with this value."""
+        if expression.isidentifier():
+            return expression
+        name = self.name(letter)
+        self.line(f"{name} = {expression}")
+        return name
+
     def constant(self, value: Any) -> str:
         """A name for an object that has no literal."""
         for name, known in self.names.items():

@@ -42,8 +42,8 @@ class ComponentSpec:
     """One component. `period` in ms, 0: `compute` is not called; `threads` run at a time.
 
     `watchdog`: after so many seconds a callback that has not returned hangs; 0: no watchdog.
-    `connections`, `addresses` and `qualities` are as after `--connect`, `--address` and `--qos`; the
-    command line overrides them for each port.
+    `connections`, `addresses` and `qualities` are as after `--connect`, `--address` and `--qos`;
+    the command line overrides them for each port.
     """
 
     name: str

@@ -32,6 +32,7 @@ class Capabilities:
     `external_port_names`: a regular expression for ports of programs that it can connect with each
     other; empty: it connects none.
     `ros_types_only`: it carries messages and services of ROS only, from `.msg` and `.srv` files.
+    `external_ros_types`: components exchange any types, programs that are no components those only.
     """
 
     between_processes: bool = True
@@ -49,6 +50,7 @@ class Capabilities:
     valid_names: str = ""
     external_port_names: str = ""
     ros_types_only: bool = False
+    external_ros_types: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +62,9 @@ class MiddlewareDescription:
     be opened, and `install` tells how to install them. `configuration` is a function, as
     `module:function`, that adds the connections of RoboComp's configuration keys to the settings of
     a component; see `middleware.configured`. `tcp_ports` is a function, as `module:function`, from
-    the address of an own port to the TCP ports of this machine where it listens. `connector` is a
+    the address of an own port to the TCP ports of this machine where it listens. `topic_types` is a
+    function, as `module:function`, from a time limit in s to the ROS types of the topics that run
+    now, `package/Type` by topic; it raises `MiddlewareError`. `connector` is a
     function without arguments, as `module:function`, that opens an `ExternalConnector`; needed if
     the capabilities have `external_port_names`. `address_problem` is a function, as
     `module:function`, from an address to what is wrong with it, "" for nothing.
@@ -74,5 +78,6 @@ class MiddlewareDescription:
     install: str = ""
     configuration: str = ""
     tcp_ports: str = ""
+    topic_types: str = ""
     connector: str = ""
     address_problem: str = ""

@@ -22,6 +22,8 @@ from robocomp_dsl.runtime.errors import Timeout
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from tests.support.waiting import wait_until
 
+NO_MASTER = "http://127.0.0.1:9"
+"""Nobody listens there: components of ROS 1 find each other without a master."""
 _domain_ids = itertools.cycle(range(1, 100))
 
 
@@ -143,6 +145,8 @@ class RosNetwork:
 
     @property
     def settings(self) -> dict[tuple[str, str], str]:
+        if self.kind == "ros1":
+            return {(self.kind, "master"): NO_MASTER}
         settings = {(self.kind, "domain_id"): str(self.domain_id)}
         if self.router_address:
             settings[self.kind, "connect"] = self.router_address

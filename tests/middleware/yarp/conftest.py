@@ -91,6 +91,12 @@ class YarpComponent:
         links = transport.outputs[port]
         return lambda: list(links.carriers())
 
+    def inputs(self, port: str) -> Callable[[], list[str]]:
+        """A function that lists the programs that write to a subscribed port."""
+        transport: Any = self.ports.transport("yarp")
+        opened = transport.received[port]
+        return lambda: list(opened.inputs())
+
     def publisher(self, interface: Interface, *external: str) -> Callable[..., None]:
         """A function that publishes the only operation of a topic."""
         channel = self.ports.advertise(self.endpoint(interface, *external))

@@ -18,6 +18,7 @@ from robocomp_dsl.runtime.middleware.yarp.outgoing import ask_admin
 from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost
 from tests.middleware.yarp.conftest import EVENTS, LOOPBACK, POSE, ROBOT, SCAN, Pose, YarpComponent
 from tests.middleware.yarp.sensor_messages import CAMERA, LEVELS, Image, image_of, pixels_of
+from tests.middleware.yarp.test_yarp_robustness import GRIPPER, Grip
 from tests.middleware.yarp.test_yarp_thrift import PATH, PATH_TEXT, check_calls
 from tests.middleware.yarp.test_yarp_transport import HANDLERS
 from tests.middleware.yarp.thrift_types import DEMO, PATHS, DemoHandlers, Path
@@ -227,6 +228,27 @@ def test_component_reads_a_struct_of_yarpidl_thrift(
     wait_until(lambda: names.query("/own/Paths:i"))
     tools.start("publish", "/path:o", "/own/Paths:i", program="demo_peer")
     wait_until(lambda: received == [PATH])
+
+
+def test_published_struct_is_a_request_to_an_rpc_port(
+    component: Components, names: NameClient, tools: Tools
+) -> None:
+    server = tools.python(GRIPPER_SERVER)
+    wait_until(lambda: names.query("/gripper/rpc:i"))
+    component().publisher(GRIPPER, "/gripper/rpc:i")(Grip("set", "opening", 1, 12.5))
+    assert tools.line_of(server) == "set opening 1 12.5\n"
+
+
+GRIPPER_SERVER = """
+import yarp
+yarp.Network.init()
+port, request = yarp.RpcServer(), yarp.Bottle()
+port.open("/gripper/rpc:i")
+while True:
+    if port.read(request, True):
+        print(request.toString())
+        port.reply(request)
+"""
 
 
 def test_stamps_and_data_of_yarp(component: Components, names: NameClient, tools: Tools) -> None:

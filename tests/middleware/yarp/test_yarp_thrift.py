@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path as Path_
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 import pytest
 
+from robocomp_dsl.generate.plan import plan
 from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.codec.bottle import messages
 from robocomp_dsl.runtime.codec.bottle.layout import Layout
@@ -16,12 +19,14 @@ from robocomp_dsl.runtime.codec.bottle.text_writer import write_text
 from robocomp_dsl.runtime.errors import MalformedMessage, RemoteError
 from robocomp_dsl.runtime.middleware.yarp.name_client import NameClient
 from robocomp_dsl.runtime.middleware.yarp.port import YarpPort
+from tests.generate.golden_cases import component as component_of
 from tests.middleware.yarp.conftest import LOOPBACK, YarpComponent
 from tests.middleware.yarp.test_yarp_transport import rpc
 from tests.middleware.yarp.test_yarp_wire import Recorder
 from tests.middleware.yarp.thrift_types import DEMO, PATHS, Color, DemoHandlers, Path, Point
 from tests.support.waiting import wait_until
 
+PEER = Path_(__file__).parent / "thrift_peer" / "demo.thrift"
 Components = Callable[..., YarpComponent]
 START = Point(1.0, 2.0, "s")
 PATH = Path(
@@ -68,6 +73,33 @@ def test_thrift_messages(
     np.testing.assert_equal(decode(read_text(reply)), result)
 
 
+def test_definition_of_the_thrift_peer_gives_its_interface(tmp_path: Path_) -> None:
+    text = f'import "{PEER.name}";\nComponent x {{ Communications {{ requires Demo; }};'
+    (tmp_path / PEER.name).write_bytes(PEER.read_bytes())
+    (tmp_path / "x.cdsl").write_text(f"{text} language Python; }};\n")
+    (file,) = (f for f in plan(component_of(tmp_path / "x.cdsl")) if f.path.endswith("faces.py"))
+    module = ModuleType("generated_of_thrift_peer")
+    exec(compile(file.text, file.path, "exec", dont_inherit=True), vars(module))
+    interface = vars(module)["DEMO"]
+    assert (interface.hash, interface.style) == (DEMO.hash, "thrift")
+    assert [o.defaults for o in interface.operations] == [o.defaults for o in DEMO.operations]
+
+
+@pytest.mark.parametrize(
+    ("request_", "arguments"),
+    [("0.0 2.0 p", (Point(0.0, 2.0, "p"), 5, "x")), ("0.0 2.0 p 6", (Point(0.0, 2.0, "p"), 6, "x")),
+     ("0.0 2.0 p 7 y", (Point(0.0, 2.0, "p"), 7, "y"))],
+)  # fmt: skip
+def test_thrift_request_may_lack_arguments_with_defaults(
+    request_: str, arguments: tuple[Any, ...]
+) -> None:
+    inputs = {"start": Point, "count": rt.Int, "name": rt.String}
+    operation = rt.Operation("go", inputs=inputs, defaults={"count": 5, "name": "x"})
+    assert messages.request_decoder(operation, Layout.THRIFT)(read_text(request_)) == arguments
+    with pytest.raises(MalformedMessage, match="has 2 values, but should have: start count name"):
+        messages.request_decoder(operation, Layout.THRIFT)(read_text("0.0 2.0"))
+
+
 @pytest.mark.parametrize(
     ("name", "reply", "fails"),
     [
@@ -96,9 +128,11 @@ def test_thrift_failures(name: str, reply: str, fails: bool) -> None:
         ("make path 1.0 2.0 s (1.5 2.5)", PATH_TEXT),
         (f"measure_path {PATH_TEXT}", "2126"),
         ("reset", ""),
+        ("get long method name hey", '"hey!"'),
+        ("get long method name", '"x!"'),
         (
             "add 1",
-            '[fail] "malformed message: message, byte 0: has 1 values, but should have: a b" ',
+            '[fail] "malformed message: message, byte 0: has 1 values (int32), but should have: ',
         ),
         ("fly 1", "[fail] "),
         ("help", '[many] ("*** Available commands:" "add a b" "set_flag on" '),

@@ -66,7 +66,7 @@ def rpc(names: NameClient, name: str, request: str) -> str:
         ("[add] 1 2.0", "[ok] 3"),
         ("isReady", "[ok] true"),
         ('plan (1.0 2.0 "the moon")', re.escape("[fail] \"NoPath: NoPath(reason='no way to the")),
-        ("add 1", r'\[fail\] ".*has 1 values, but should have: a b" malformed'),
+        ("add 1", r'\[fail\] ".*has 1 values \(int32\), but should have: a int, b int" malformed'),
         ("add 1 x", r'\[fail\] ".*field b.*`x` is no int" malformed'),
         ("add 1 3000000000", r"\[fail\] .*3000000000 does not fit into a int.* malformed"),
         ("nonsense", r'\[fail\] "server.Robot has no operation `nonsense`; it has add, plan,'),
@@ -115,7 +115,7 @@ def test_external_server(
         ("false", "isReady", False),
         ("[fail] broken", "isReady", RemoteError("plain.Robot.isReady failed: broken")),
         ("[fail]", "add", RemoteError("plain.Robot.add failed: it reported a failure without")),
-        ("", "add", MalformedMessage("the reply of plain.Robot.add: has 0 values")),
+        ("", "add", MalformedMessage("the reply of plain.Robot.add: has no values")),
         ('"x"', "add", MalformedMessage("the reply of plain.Robot.add: `x` is no int")),
     ],
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 _PORT = """\
-import os, signal, sys, threading
+import os, signal, sys, time
 from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
@@ -21,20 +21,19 @@ group = CallbackGroup()
 context = ComponentContext(name, f"programs-{os.getpid()}", group, Statistics())
 ports = open_ports("yarp", context)
 at = Endpoint(SCAN, name, "Scan", middlewares=("yarp",))
-ended = threading.Event()
-signal.signal(signal.SIGTERM, lambda *_: ended.set())
+signal.signal(signal.SIGTERM, lambda *_: os._exit(0))
 """
 _SPEAKER = """\
 publish = ports.advertise(at).bind(SCAN.operations[0])
-while not ended.wait(0.02):
+while True:
     publish([1.5, 2.5])
-ports.close()
+    time.sleep(0.02)
 """
 _LISTENER = """\
 ports.subscribe(at, {"ranges": lambda meters: print("heard", list(map(float, meters)), flush=True)},
                 group)
-ended.wait()
-ports.close()
+while True:
+    time.sleep(60.0)
 """
 
 

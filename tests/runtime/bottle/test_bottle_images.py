@@ -135,7 +135,7 @@ class Unsigned(rt.Struct):
     large: rt.UInt64Array = rt.default()
     octets: rt.OctetArray = rt.default()
     signed: rt.Int8Array = rt.default()
-    one: rt.Int8 = 0
+    small_signed: rt.Int8 = 0
     flags: rt.BoolArray = rt.default()
 
 

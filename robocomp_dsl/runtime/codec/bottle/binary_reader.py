@@ -32,6 +32,8 @@ def read_binary(data: Bytes, profile: Profile) -> Bottle:
     at = 0
     if len(data) > _SHARED_BYTES:
         data = memoryview(data).toreadonly()
+    else:
+        data = bytes(data)
 
     def take(size: int) -> Bytes:
         nonlocal at

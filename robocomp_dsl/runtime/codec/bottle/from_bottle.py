@@ -14,6 +14,7 @@ import numpy as np
 
 from robocomp_dsl.runtime.codec.bottle.images import IMAGE_ID, is_image, items_to_image
 from robocomp_dsl.runtime.codec.bottle.layout import Layout
+from robocomp_dsl.runtime.codec.bottle.shapes import described, shape_of
 from robocomp_dsl.runtime.codec.bottle.text_writer import write_value
 from robocomp_dsl.runtime.codec.bottle.to_bottle import is_spliced, join_path
 from robocomp_dsl.runtime.codec.bottle.values import FALSE, TRUE, Bottle, Vocab, Vocab64, vocab
@@ -59,11 +60,12 @@ def items_to_fields(fields: Fields, layout: Layout = Layout.YARP) -> Callable[[B
         at = slice(count, count + width) if spliced else count
         converters.append((name, value_converter(type_, layout), at))
         count += width
-    names = " ".join(name or "result" for name, _ in fields) or "nothing"
+    names = ", ".join(f"{name or 'result'} {described(type_)}" for name, type_ in fields)
 
     def convert(items: Bottle) -> list[Any]:
         if len(items) != count:
-            raise MalformedMessage(f"has {len(items)} values, but should have: {names}")
+            found = f"{len(items)} values ({shape_of(items)})" if len(items) else "no values"
+            raise MalformedMessage(f"has {found}, but should have: {names or 'none'}")
         values = []
         plain = as_items(items)
         for name, from_item, at in converters:

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, cast
 
-from robocomp_dsl.runtime.codec.bottle.from_bottle import as_items, items_to_fields
+from robocomp_dsl.runtime.codec.bottle.from_bottle import as_items, items_to_fields, width_of
 from robocomp_dsl.runtime.codec.bottle.layout import Layout
 from robocomp_dsl.runtime.codec.bottle.to_bottle import (
     FAIL,
@@ -112,9 +112,26 @@ def plain_encoder(
 def request_decoder(
     operation: Operation, layout: Layout = Layout.YARP
 ) -> Callable[[Bottle], tuple[Any, ...]]:
-    """A function from the items behind the name to arguments."""
+    """A function from the items behind the name to arguments.
+
+    A caller of a Thrift service may leave out the last arguments, if they have defaults.
+    """
     convert = items_to_fields(operation.inputs, layout)
-    return lambda items: tuple(convert(items))
+    if layout is not Layout.THRIFT or not operation.defaults:
+        return lambda items: tuple(convert(items))
+    shorter = {}
+    for missing in range(1, len(operation.defaults) + 1):
+        fields = operation.inputs[:-missing]
+        width = sum(width_of(type_, layout) for _, type_ in fields)
+        shorter[width] = items_to_fields(fields, layout), operation.defaults[-missing:]
+
+    def decode(items: Bottle) -> tuple[Any, ...]:
+        if len(items) not in shorter:
+            return tuple(convert(items))
+        first, defaults = shorter[len(items)]
+        return (*first(items), *defaults)
+
+    return decode
 
 
 def plain_decoder(

@@ -121,14 +121,6 @@ class _Encoder(SourceWriter):
             self.line(f"parts += ({parts},)")
         self.spilled = True
 
-    def assigned(self, letter: str, expression: str) -> str:
-        """A variable with this value."""
-        if expression.isidentifier():
-            return expression
-        name = self.name(letter)
-        self.line(f"{name} = {expression}")
-        return name
-
     def value(self, type_: Type, expression: str) -> None:
         """One value of any type."""
         match type_:

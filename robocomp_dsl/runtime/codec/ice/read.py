@@ -12,19 +12,22 @@ from typing import Any
 import numpy as np
 
 from robocomp_dsl.runtime.codec.ice import rows, wire
-from robocomp_dsl.runtime.codec.read import check_length, check_text_length
+from robocomp_dsl.runtime.codec.message_reader import (
+    MessageReader,
+    bools,
+    check_length,
+    check_text_length,
+)
 from robocomp_dsl.runtime.codec.struct_arrays import bad_element
 from robocomp_dsl.runtime.data.declared_error import DeclaredError
 from robocomp_dsl.runtime.data.layout import row_layout
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
     Array,
-    Dictionary,
     Enum,
     Fields,
     Primitive,
     Sequence,
-    Type,
 )
 from robocomp_dsl.runtime.data.struct import Struct
 from robocomp_dsl.runtime.errors import MalformedMessage
@@ -43,7 +46,7 @@ def read(fields: Fields, form: str, order: tuple[int, ...], message: bytes) -> A
     return values[0] if values else None
 
 
-class Reader:
+class Reader(MessageReader):
     """The bytes of an encapsulation and the read position."""
 
     def __init__(self, message: bytes) -> None:
@@ -69,12 +72,6 @@ class Reader:
         self.at += size
         return start
 
-    def finish(self) -> None:
-        """Raise for bytes after the end of the values."""
-        extra = len(self.data) - self.at
-        if extra:
-            raise MalformedMessage(f"{extra} bytes more than the message has", "", self.at)
-
     def number(self, code: str, path: str) -> Any:
         """One number."""
         form = struct.Struct(f"<{code}")
@@ -98,37 +95,6 @@ class Reader:
             raise MalformedMessage(f"{count} elements claimed, {left} bytes left", path, start)
         return count
 
-    def value(self, type_: Type, path: str) -> Any:
-        """One value of any type."""
-        value: Any
-        match type_:
-            case Primitive():
-                value = self.primitive(type_, path)
-            case Array():
-                value = self.array(type_, path)
-            case Sequence():
-                value = self.sequence(type_.element, path, type_)
-            case Dictionary():
-                value = self.dictionary(type_, path)
-            case _ if issubclass(type_, Enum):
-                value = self.member(type_, path)
-            case _ if issubclass(type_, Struct):
-                value = self.record(type_, path)
-            case _:
-                value = self.struct_array(type_, path)
-        return value
-
-    def primitive(self, type_: Primitive, path: str) -> Any:
-        """A number, a bool or a string."""
-        if type_.is_text:
-            return self.text(type_, path)
-        if type_ is BOOL:
-            number = self.number("B", path)
-            if number > 1:
-                raise MalformedMessage(f"{number} is no bool (0 or 1)", path, self.at - 1)
-            return bool(number)
-        return self.number(type_.code, path)
-
     def text(self, type_: Primitive, path: str) -> str:
         """Size and UTF-8."""
         before = self.at
@@ -136,7 +102,7 @@ class Reader:
         check_text_length(type_, size, path, before)
         start = self.take(size, path)
         try:
-            return self.data[start : self.at].decode()
+            return str(self.data[start : self.at], "utf-8")
         except UnicodeDecodeError as error:
             raise MalformedMessage("the text is not UTF-8", path, start + error.start) from None
 
@@ -159,21 +125,12 @@ class Reader:
             self.take(1, path)
         return value
 
-    def sequence(self, element: Type, path: str, type_: Sequence | None = None) -> list[Any]:
+    def sequence(self, type_: Sequence, path: str) -> list[Any]:
         """A list; every element has at least one byte."""
         start = self.at
         count = self.count(path)
-        if type_:
-            check_length(type_, count, path, start)
-        return [self.value(element, f"{path}[{i}]") for i in range(count)]
-
-    def dictionary(self, type_: Dictionary, path: str) -> dict[Any, Any]:
-        """Pairs; of duplicate keys the last one is used."""
-        pairs = {}
-        for index in range(self.count(path, 2)):
-            key = self.value(type_.key, f"{path}[{index}].key")
-            pairs[key] = self.value(type_.value, f"{path}[{index}].value")
-        return pairs
+        check_length(type_, count, path, start)
+        return [self.value(type_.element, f"{path}[{i}]") for i in range(count)]
 
     def array(self, type_: Array, path: str) -> Any:
         """Numbers: a view of the message, or a copy if its memory is not aligned."""
@@ -183,20 +140,13 @@ class Reader:
         dtype = np.dtype(np.uint8) if primitive is BOOL else primitive.dtype
         start = self.take(count * primitive.size, path)
         array = np.ndarray(count, dtype, self.data, start)
-        if primitive is not BOOL:
-            return rows.aligned(array)
-        wrong = array > 1
-        if wrong.any():
-            index = int(wrong.argmax())
-            what = f"{array[index]} is no bool (0 or 1)"
-            raise MalformedMessage(what, f"{path}[{index}]", start + index)
-        return array.view(np.bool_)
+        return bools(array, path, start) if primitive is BOOL else rows.aligned(array)
 
     def struct_array(self, type_: Any, path: str) -> Any:
         """Elements of fixed structs."""
         packed = rows.packed_rows(type_._element_)
         if packed is None:
-            return type_(self.sequence(type_._element_, path))
+            return type_(self.sequence(Sequence(type_._element_), path))
         count = self.count(path, packed.dtype.itemsize)
         start = self.take(count * packed.dtype.itemsize, path)
         array = rows.unpack(packed, self.data, start, count)

@@ -25,7 +25,7 @@ from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Service, service
 from robocomp_dsl.runtime.middleware.ros1.port_receiver import INDEX, frame, port_header
 from robocomp_dsl.runtime.middleware.ros1.publication import Publication
 from robocomp_dsl.runtime.middleware.ros1.service import read_reply
-from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, ConnectionLost, Stream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, PeerLost, TcprosStream
 from robocomp_dsl.runtime.middleware.ros1.xmlrpc import RosApi, RosApiError
 from robocomp_dsl.runtime.middleware.ros_common.interface_types import is_topic
 from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost
@@ -49,10 +49,10 @@ class Ros1Client:
         self._timeout = timeout
         self._lock = threading.Lock()
         self._command_lock = threading.Lock()
-        self._idle: dict[str, list[Stream]] = {}
+        self._idle: dict[str, list[TcprosStream]] = {}
         """By service; a component needs one kind of connection."""
-        self._opened: set[Stream] = set()
-        self._command_stream: Stream | None = None
+        self._opened: set[TcprosStream] = set()
+        self._command_stream: TcprosStream | None = None
         self._port_header = port_header(node.name, self._address.name, at.interface)
         self._publications: dict[str, Publication] = {}
         self._cancelled = False
@@ -80,7 +80,7 @@ class Ros1Client:
                 stream.send(LENGTH.pack(len(prefix) + len(data)) + prefix, data)
                 counts.bytes_out += len(data)
                 is_ok, reply = read_reply(stream)
-            except ConnectionLost as error:
+            except PeerLost as error:
                 self._drop(stream)
                 raise self._failure(error, what, timeout) from None
             except MalformedMessage as error:
@@ -102,12 +102,12 @@ class Ros1Client:
 
     def _take_stream(
         self,
-        idle: list[Stream],
+        idle: list[TcprosStream],
         header: dict[str, str],
         what: str,
         deadline: float,
         timeout: float,
-    ) -> Stream:
+    ) -> TcprosStream:
         """An idle connection that is still open, or a new one."""
         while True:
             with self._lock:
@@ -122,7 +122,9 @@ class Ros1Client:
             stream.deadline = deadline
             return stream
 
-    def _open(self, header: dict[str, str], what: str, deadline: float, timeout: float) -> Stream:
+    def _open(
+        self, header: dict[str, str], what: str, deadline: float, timeout: float
+    ) -> TcprosStream:
         """A new connection whose peer has accepted `header`."""
         host, number = self._address.host, self._address.number
         if not number:
@@ -130,7 +132,7 @@ class Ros1Client:
         left = max(0.001, deadline - time.monotonic())
         try:
             stream = tcpros.connect(host, number, left)
-        except ConnectionLost as error:
+        except PeerLost as error:
             if self._is_external and not error.timed_out:
                 raise NoServer(
                     f"{self._at.port}: the ROS service {header['service']} at {host}:{number}"
@@ -144,7 +146,7 @@ class Ros1Client:
         except Refused as error:
             self._drop(stream)
             raise InterfaceMismatch(f"{self._at.port}: {what}: {error}") from None
-        except ConnectionLost as error:
+        except PeerLost as error:
             self._drop(stream)
             raise self._failure(error, what, timeout) from None
         if self._cancelled:
@@ -195,7 +197,7 @@ class Ros1Client:
                 stream.deadline = deadline
                 try:
                     stream.send(*frame(index, publication.counter(), data))
-                except ConnectionLost as error:
+                except PeerLost as error:
                     self._drop(stream)
                     raise self._failure(error, what, timeout) from None
                 self._command_stream = stream
@@ -224,21 +226,21 @@ class Ros1Client:
 
         return command
 
-    def _failure(self, error: ConnectionLost, what: str, timeout: float) -> Exception:
+    def _failure(self, error: PeerLost, what: str, timeout: float) -> Exception:
         if self._cancelled:
             return ServerLost(self._server.name)
         if error.timed_out:
             return Timeout(f"{what} did not reply within {timeout:g} s")
         return ServerLost(f"{self._server.name}: the connection was lost ({error})")
 
-    def _keep(self, idle: list[Stream], stream: Stream) -> None:
+    def _keep(self, idle: list[TcprosStream], stream: TcprosStream) -> None:
         with self._lock:
             if not self._cancelled:
                 idle.append(stream)
                 return
         self._drop(stream)
 
-    def _drop(self, stream: Stream) -> None:
+    def _drop(self, stream: TcprosStream) -> None:
         with self._lock:
             self._opened.discard(stream)
         stream.close()

@@ -10,31 +10,33 @@ import time
 from robocomp_dsl.runtime.errors import MalformedMessage
 from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.message_types import ANY, Ros1Type
-from robocomp_dsl.runtime.middleware.ros1.tcpros import ConnectionLost, Stream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
 
 ERROR_KEY = "error"
 
 
-class Refused(ConnectionLost):
+class Refused(PeerLost):
     """The peer does not accept the connection, for a reason that it tells."""
 
 
-def exchange_headers(stream: Stream, header: dict[str, str], timeout: float) -> dict[str, str]:
-    """Send a header and read that of the peer. Raises `ConnectionLost`, `Refused` if it refuses."""
+def exchange_headers(
+    stream: TcprosStream, header: dict[str, str], timeout: float
+) -> dict[str, str]:
+    """Send a header and read that of the peer. Raises `PeerLost`, `Refused` if it refuses."""
     stream.deadline = time.monotonic() + timeout
     stream.send(tcpros.encode_header(header))
     try:
         reply = stream.header()
     except MalformedMessage as error:
-        raise ConnectionLost(f"the peer is no ROS node: {error}") from None
+        raise PeerLost(f"the peer is no ROS node: {error}") from None
     if ERROR_KEY in reply:
         raise Refused(reply[ERROR_KEY])
     stream.deadline = None
     return reply
 
 
-def refuse(stream: Stream, reason: str) -> None:
-    """Tell the peer why it is not accepted. Raises `ConnectionLost`."""
+def refuse(stream: TcprosStream, reason: str) -> None:
+    """Tell the peer why it is not accepted. Raises `PeerLost`."""
     stream.send(tcpros.encode_header({ERROR_KEY: reason}))
 
 

@@ -15,16 +15,16 @@ from robocomp_dsl.runtime.connection.message_queue import MessageQueue
 from robocomp_dsl.runtime.errors import MalformedMessage
 from robocomp_dsl.runtime.middleware.ros1.handshake import refusal
 from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Topic, topic_of
-from robocomp_dsl.runtime.middleware.ros1.output_link import link_numbers
-from robocomp_dsl.runtime.middleware.ros1.tcpros import ConnectionLost, Stream
+from robocomp_dsl.runtime.middleware.ros1.subscriber_link import link_numbers
+from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
 
 log = logging.getLogger("robocomp")
 
 
-class Connection:
+class IncomingLink:
     """One publisher that sends; `peer` is the name of its node."""
 
-    def __init__(self, stream: Stream, peer: str) -> None:
+    def __init__(self, stream: TcprosStream, peer: str) -> None:
         self.number = next(link_numbers)
         self.stream = stream
         self.peer = peer
@@ -49,11 +49,11 @@ class TopicReceiver:
         self._queue = queue
         self._throttle = Throttle()
         self._lock = threading.Lock()
-        self._connections: tuple[Connection, ...] = ()
+        self._connections: tuple[IncomingLink, ...] = ()
         self._closed = False
 
     @property
-    def connections(self) -> tuple[Connection, ...]:
+    def connections(self) -> tuple[IncomingLink, ...]:
         """The publishers that are connected."""
         return self._connections
 
@@ -72,12 +72,12 @@ class TopicReceiver:
         """Why a publisher cannot be connected; empty if it can."""
         return refusal(self.topic.name, self.topic.type, header, "publishes")
 
-    def receive(self, stream: Stream, peer: str) -> None:
-        """Receive until the connection ends, which raises `ConnectionLost`."""
-        connection = Connection(stream, peer)
+    def receive(self, stream: TcprosStream, peer: str) -> None:
+        """Receive until the connection ends, which raises `PeerLost`."""
+        connection = IncomingLink(stream, peer)
         with self._lock:
             if self._closed:
-                raise ConnectionLost("the port was closed")
+                raise PeerLost("the port was closed")
             self._connections += (connection,)
         try:
             self._receive(connection)
@@ -86,14 +86,14 @@ class TopicReceiver:
                 self._connections = tuple(c for c in self._connections if c is not connection)
             stream.close()
 
-    def _receive(self, connection: Connection) -> None:
+    def _receive(self, connection: IncomingLink) -> None:
         frame = connection.stream.frame
         while True:
             try:
                 data = frame()
             except MalformedMessage as error:
                 self._malformed(connection.peer, error)
-                raise ConnectionLost(str(error)) from None
+                raise PeerLost(str(error)) from None
             connection.messages_in += 1
             self.handle(data, connection.peer)
 

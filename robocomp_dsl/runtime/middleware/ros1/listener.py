@@ -17,18 +17,18 @@ from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.component.user_errors import describe_error
 from robocomp_dsl.runtime.errors import MalformedMessage, MiddlewareError
 from robocomp_dsl.runtime.middleware.ros1.handshake import refuse
-from robocomp_dsl.runtime.middleware.ros1.tcpros import ConnectionLost, Stream, failure_reason
+from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream, failure_reason
 
 MAX_CONNECTIONS = 2048
 """Connections of one node at a time; further ones are closed at once."""
 HEADER_S = 5.0
 """A peer that has connected sends its header within this time."""
-Handler: TypeAlias = Callable[[Stream, dict[str, str]], bool]
+Handler: TypeAlias = Callable[[TcprosStream, dict[str, str]], bool]
 """Handles a connection; returns whether it has taken it over, else the connection is closed."""
 log = logging.getLogger("robocomp")
 
 
-class Listener:
+class TcprosListener:
     """Raises `MiddlewareError` if it cannot listen."""
 
     def __init__(self, node: str, host: str, handlers: Mapping[str, Handler]) -> None:
@@ -36,7 +36,7 @@ class Listener:
         self._handlers = handlers
         self._throttle = Throttle()
         self._lock = threading.Lock()
-        self._streams: set[Stream] = set()
+        self._streams: set[TcprosStream] = set()
         self._closed = False
         try:
             self._socket = socket.create_server((host, 0), backlog=128)
@@ -58,7 +58,7 @@ class Listener:
                     return
                 time.sleep(0.1)  # too many open files: the connection stays in the backlog
                 continue
-            stream = Stream(accepted)
+            stream = TcprosStream(accepted)
             with self._lock:
                 has_room = not self._closed and len(self._streams) < MAX_CONNECTIONS
                 if has_room:
@@ -69,11 +69,11 @@ class Listener:
             name = f"ros1 {self._node} input"
             threading.Thread(target=self._serve, args=(stream,), name=name, daemon=True).start()
 
-    def _serve(self, stream: Stream) -> None:
+    def _serve(self, stream: TcprosStream) -> None:
         is_taken = False
         try:
             is_taken = self._handle(stream)
-        except ConnectionLost:
+        except PeerLost:
             pass
         except MalformedMessage as error:
             self.report("malformed", f"a peer sent an invalid header: {error}")
@@ -86,7 +86,7 @@ class Listener:
             if not is_taken:
                 stream.close()
 
-    def _handle(self, stream: Stream) -> bool:
+    def _handle(self, stream: TcprosStream) -> bool:
         stream.deadline = time.monotonic() + HEADER_S
         header = stream.header()
         stream.deadline = None

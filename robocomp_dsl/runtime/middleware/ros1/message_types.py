@@ -72,7 +72,7 @@ def message_type(struct: type[Any]) -> Ros1Type:
     _collect(struct, parts)
     texts = [definition.text]
     texts += [f"{_LINE}\nMSG: {part}\n{text}" for part, text in parts.items() if part != name]
-    return Ros1Type(name, _md5(struct), "\n".join(texts) + "\n", counts)
+    return Ros1Type(name, _md5(struct), "".join(f"{text}\n" for text in texts if text), counts)
 
 
 def service_type(request: type[Any], response: type[Any]) -> Ros1Type:

@@ -9,16 +9,16 @@ from typing import Any
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.middleware.ros1.addresses import own_name
 from robocomp_dsl.runtime.middleware.ros1.handshake import refuse
-from robocomp_dsl.runtime.middleware.ros1.incoming import Connection, TopicReceiver
-from robocomp_dsl.runtime.middleware.ros1.listener import Listener
+from robocomp_dsl.runtime.middleware.ros1.incoming import IncomingLink, TopicReceiver
+from robocomp_dsl.runtime.middleware.ros1.listener import TcprosListener
 from robocomp_dsl.runtime.middleware.ros1.node_api import NodeApi
 from robocomp_dsl.runtime.middleware.ros1.port_receiver import PORT_KEY, PortReceiver
 from robocomp_dsl.runtime.middleware.ros1.publication import Publication
-from robocomp_dsl.runtime.middleware.ros1.registration import Registration
+from robocomp_dsl.runtime.middleware.ros1.registration import MasterRegistration
 from robocomp_dsl.runtime.middleware.ros1.service import ServiceServer
 from robocomp_dsl.runtime.middleware.ros1.settings import Ros1Settings
 from robocomp_dsl.runtime.middleware.ros1.subscription import TopicSubscription
-from robocomp_dsl.runtime.middleware.ros1.tcpros import Stream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import TcprosStream
 
 
 class RosNode:
@@ -40,7 +40,7 @@ class RosNode:
             "service": self._accept_client,
             "topic": self._accept_subscriber,
         }
-        self.listener = Listener(self.name, settings.host, handlers)
+        self.listener = TcprosListener(self.name, settings.host, handlers)
         try:
             self._api = NodeApi(settings.host, self)
         except MiddlewareError:
@@ -48,7 +48,9 @@ class RosNode:
             raise
         self.api_uri = self._api.uri
         service_uri = f"rosrpc://{settings.host}:{self.listener.number}"
-        self.registration = Registration(self.name, self._api.uri, service_uri, settings.master)
+        self.registration = MasterRegistration(
+            self.name, self._api.uri, service_uri, settings.master
+        )
 
     def add_publication(self, publication: Publication) -> None:
         """Publish a topic. Raises `MiddlewareError` if the node publishes it already."""
@@ -123,7 +125,7 @@ class RosNode:
                 self._ports[receiver.name] = remaining
         receiver.close()
 
-    def _accept_subscriber(self, stream: Stream, header: dict[str, str]) -> bool:
+    def _accept_subscriber(self, stream: TcprosStream, header: dict[str, str]) -> bool:
         publication = self._publications.get(header["topic"])
         if publication is None:
             refuse(stream, f"{self.name} does not publish {header['topic']}")
@@ -135,7 +137,7 @@ class RosNode:
         publication.accept(stream, header.get("callerid", "a node"))
         return True
 
-    def _accept_component(self, stream: Stream, header: dict[str, str]) -> bool:
+    def _accept_component(self, stream: TcprosStream, header: dict[str, str]) -> bool:
         several = self._ports.get(header[PORT_KEY], [])
         if not several:
             refuse(stream, f"{self.name} has no port {header[PORT_KEY]}")
@@ -149,7 +151,7 @@ class RosNode:
         self.listener.report(refusals[0], f"refused a component: {refusals[0]}")
         return False
 
-    def _accept_client(self, stream: Stream, header: dict[str, str]) -> bool:
+    def _accept_client(self, stream: TcprosStream, header: dict[str, str]) -> bool:
         server = self._services.get(header["service"])
         if server is None:
             refuse(stream, f"{self.name} does not serve {header['service']}")
@@ -179,7 +181,7 @@ class RosNode:
         ]
         return rows
 
-    def _connections(self) -> list[tuple[str, Connection]]:
+    def _connections(self) -> list[tuple[str, IncomingLink]]:
         """All incoming connections, by topic or port."""
         ends: list[tuple[str, TopicReceiver | PortReceiver]] = [
             (name, each.receiver)

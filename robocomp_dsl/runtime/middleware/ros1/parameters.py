@@ -24,9 +24,9 @@ _INT32 = range(-(2**31), 2**31)
 log = logging.getLogger("robocomp")
 
 
-def show_parameters(node: RosNode, parameters: ShownParameters) -> RosParameters:
+def show_parameters(node: RosNode, parameters: ShownParameters) -> MasterParameters:
     """Show the parameters of a component as those of its node, from now on."""
-    shown = RosParameters(node, parameters)
+    shown = MasterParameters(node, parameters)
     node.on_parameter = shown.update
     node.registration.on_master = shown.set_all
     node.registration.on_check = shown.check
@@ -34,7 +34,7 @@ def show_parameters(node: RosNode, parameters: ShownParameters) -> RosParameters
     return shown
 
 
-class RosParameters:
+class MasterParameters:
     """The parameters of one node. The thread that registers the node calls the master."""
 
     def __init__(self, node: RosNode, parameters: ShownParameters) -> None:
@@ -45,7 +45,9 @@ class RosParameters:
         self._shown: dict[str, Any] = {}
 
     def _key(self, name: str) -> str:
-        return f"{self._node.name}/{name.replace('.', '/')}"
+        """`/arm/motors/2/low` for `motors[2].low`."""
+        path = name.replace("[", "/").replace("]", "").replace(".", "/")
+        return f"{self._node.name}/{path}"
 
     def set_all(self, api: RosApi) -> None:
         """Set all parameters, and subscribe to changes. Raises `RosApiError`."""

@@ -17,8 +17,8 @@ from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.errors import MalformedMessage
 from robocomp_dsl.runtime.middleware.ros1 import tcpros
-from robocomp_dsl.runtime.middleware.ros1.incoming import Connection
-from robocomp_dsl.runtime.middleware.ros1.tcpros import ConnectionLost, Stream
+from robocomp_dsl.runtime.middleware.ros1.incoming import IncomingLink
+from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
 
 INDEX = struct.Struct("<H")
 PORT_KEY = "port"
@@ -54,11 +54,11 @@ class PortReceiver:
         self._handlers = handlers
         self._port = port
         self._lock = threading.Lock()
-        self._connections: tuple[Connection, ...] = ()
+        self._connections: tuple[IncomingLink, ...] = ()
         self._closed = False
 
     @property
-    def connections(self) -> tuple[Connection, ...]:
+    def connections(self) -> tuple[IncomingLink, ...]:
         """The components that are connected."""
         return self._connections
 
@@ -71,13 +71,13 @@ class PortReceiver:
             f" {self.interface.name} than {self._port.at.name}; generate both again"
         )
 
-    def accept(self, stream: Stream, header: dict[str, str]) -> None:
-        """Receive until the connection ends, which raises `ConnectionLost`."""
+    def accept(self, stream: TcprosStream, header: dict[str, str]) -> None:
+        """Receive until the connection ends, which raises `PeerLost`."""
         stream.send(tcpros.encode_header(self._header))
-        connection = Connection(stream, header.get("callerid", "a component"))
+        connection = IncomingLink(stream, header.get("callerid", "a component"))
         with self._lock:
             if self._closed:
-                raise ConnectionLost("the port was closed")
+                raise PeerLost("the port was closed")
             self._connections += (connection,)
         try:
             self._receive(connection)
@@ -85,7 +85,7 @@ class PortReceiver:
             with self._lock:
                 self._connections = tuple(c for c in self._connections if c is not connection)
 
-    def _receive(self, connection: Connection) -> None:
+    def _receive(self, connection: IncomingLink) -> None:
         stream, handlers = connection.stream, self._handlers
         while True:
             try:
@@ -94,12 +94,12 @@ class PortReceiver:
                 handler = handlers[index]
             except (MalformedMessage, struct.error, KeyError) as error:
                 self._report(connection.peer, error)
-                raise ConnectionLost(str(error)) from None
+                raise PeerLost(str(error)) from None
             connection.messages_in += 1
             reply = handler(data[INDEX.size :], connection.peer)
             if reply is not None:
                 if self._closed:
-                    raise ConnectionLost("the port was closed")
+                    raise PeerLost("the port was closed")
                 stream.send(*reply)
 
     def _report(self, peer: str, error: Exception) -> None:

@@ -13,8 +13,8 @@ from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.handshake import refusal
 from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Topic
-from robocomp_dsl.runtime.middleware.ros1.output_link import Frame, OutputLink
-from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, Stream
+from robocomp_dsl.runtime.middleware.ros1.subscriber_link import Frame, SubscriberLink
+from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, TcprosStream
 
 _MAX_COUNT = 1 << 32
 
@@ -27,13 +27,13 @@ class Publication:
         self._node = node
         self._qos = qos
         self._lock = threading.Lock()
-        self._links: tuple[OutputLink, ...] = ()
+        self._links: tuple[SubscriberLink, ...] = ()
         self._numbers = count(1)
         self._latest: Frame | None = None
         self._counts = OperationCounts("", "")
 
     @property
-    def links(self) -> tuple[OutputLink, ...]:
+    def links(self) -> tuple[SubscriberLink, ...]:
         """The links to the subscribers."""
         return self._links
 
@@ -53,19 +53,19 @@ class Publication:
             "type": type_.name,
         }
 
-    def accept(self, stream: Stream, peer: str) -> None:
-        """Send to a subscriber that has connected. Raises `ConnectionLost`."""
+    def accept(self, stream: TcprosStream, peer: str) -> None:
+        """Send to a subscriber that has connected. Raises `PeerLost`."""
         stream.send(tcpros.encode_header(self.reply_header()))
-        self._add(OutputLink(peer, self._qos, stream=stream, on_end=self._remove))
+        self._add(SubscriberLink(peer, self._qos, stream=stream, on_end=self._remove))
 
-    def _add(self, link: OutputLink) -> None:
+    def _add(self, link: SubscriberLink) -> None:
         with self._lock:
             self._links += (link,)
             if self._latest is not None:
                 link.send(self._latest, self._counts)
         link.start()
 
-    def _remove(self, link: OutputLink) -> None:
+    def _remove(self, link: SubscriberLink) -> None:
         with self._lock:
             self._links = tuple(each for each in self._links if each is not link)
 

@@ -16,10 +16,10 @@ from robocomp_dsl.runtime.middleware.ros1.description import MIDDLEWARE
 from robocomp_dsl.runtime.middleware.ros1.handshake import exchange_headers
 from robocomp_dsl.runtime.middleware.ros1.node import RosNode
 from robocomp_dsl.runtime.middleware.ros1.operations import topic_of
-from robocomp_dsl.runtime.middleware.ros1.output_link import OutputLink
 from robocomp_dsl.runtime.middleware.ros1.port_receiver import frame, port_header
 from robocomp_dsl.runtime.middleware.ros1.publication import Publication
-from robocomp_dsl.runtime.middleware.ros1.tcpros import ConnectionLost, Stream
+from robocomp_dsl.runtime.middleware.ros1.subscriber_link import SubscriberLink
+from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
 from robocomp_dsl.runtime.middleware.transport import BoundOperation
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
@@ -36,8 +36,8 @@ class Ros1Publisher:
         self._at = at
         self._lock = Lock()
         self._publications: dict[str, tuple[Publication, ...]] = {}
-        self._attached: dict[PortRecord, OutputLink] = {}
-        self._links: tuple[OutputLink, ...] = ()
+        self._attached: dict[PortRecord, SubscriberLink] = {}
+        self._links: tuple[SubscriberLink, ...] = ()
         names = [name]
         names += [
             parse_address(record.address, at.port).name
@@ -78,11 +78,11 @@ class Ros1Publisher:
         address = parse_address(subscriber.address, subscriber.name)
         header = port_header(self._node.name, address.name, self._at.interface)
 
-        def open_stream() -> Stream:
+        def open_stream() -> TcprosStream:
             stream = tcpros.connect(address.host, address.number, CONNECT_S)
             try:
                 exchange_headers(stream, header, CONNECT_S)
-            except ConnectionLost:
+            except PeerLost:
                 stream.close()
                 raise
             return stream
@@ -90,7 +90,7 @@ class Ros1Publisher:
         with self._lock:
             if subscriber in self._attached:
                 return
-            link = OutputLink(subscriber.name, self._at.qos, open_stream=open_stream)
+            link = SubscriberLink(subscriber.name, self._at.qos, open_stream=open_stream)
             self._attached[subscriber] = link
             self._links = tuple(self._attached.values())
         link.start()

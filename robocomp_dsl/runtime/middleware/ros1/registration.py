@@ -34,7 +34,7 @@ class _Item:
     is_known: bool = False
 
 
-class Registration:
+class MasterRegistration:
     """All registrations of one node. `api_uri` is that of its interface."""
 
     def __init__(self, node: str, api_uri: str, service_uri: str, master: str) -> None:

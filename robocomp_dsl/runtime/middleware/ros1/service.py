@@ -15,7 +15,7 @@ from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.failures import encode_failure
 from robocomp_dsl.runtime.middleware.ros1.handshake import refusal, refuse
 from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Service, service_of
-from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, Stream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, TcprosStream
 
 _OK, _FAILED = b"\x01", b"\x00"
 
@@ -29,10 +29,10 @@ class ServiceServer:
         self._node = node
         self._served = served
         self._lock = threading.Lock()
-        self._streams: set[Stream] = set()
+        self._streams: set[TcprosStream] = set()
         self._closed = False
 
-    def accept(self, stream: Stream, header: dict[str, str]) -> str:
+    def accept(self, stream: TcprosStream, header: dict[str, str]) -> str:
         """Serve a client until its connection ends; returns why it was refused, if it was."""
         service = self.service
         type_ = service.type
@@ -60,7 +60,7 @@ class ServiceServer:
                 self._streams.discard(stream)
         return ""
 
-    def _serve(self, stream: Stream, *, is_persistent: bool) -> None:
+    def _serve(self, stream: TcprosStream, *, is_persistent: bool) -> None:
         while True:
             try:
                 data = stream.frame()
@@ -101,7 +101,7 @@ class ServiceServer:
             stream.close()
 
 
-def read_reply(stream: Stream) -> tuple[bool, bytes | memoryview]:
-    """Whether a call succeeded, and the reply or the text. Raises as `Stream.frame`."""
+def read_reply(stream: TcprosStream) -> tuple[bool, bytes | memoryview]:
+    """Whether a call succeeded, and the reply or the text. Raises as `TcprosStream.frame`."""
     is_ok = bool(stream.take(1)[0])
     return is_ok, stream.frame()

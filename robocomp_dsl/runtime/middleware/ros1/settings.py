@@ -21,6 +21,11 @@ class Ros1Settings:
     master: str
     host: str
 
+    @property
+    def is_unreachable(self) -> bool:
+        """Whether the master runs on another machine, which cannot reach `host`."""
+        return _is_loopback(self.host) and not _is_loopback(urlsplit(self.master).hostname or "")
+
 
 def read_settings(settings: Mapping[str, str], environment: Mapping[str, str]) -> Ros1Settings:
     """The settings, else the variables of ROS, else the defaults. Raises `MiddlewareError`."""
@@ -30,6 +35,10 @@ def read_settings(settings: Mapping[str, str], environment: Mapping[str, str]) -
         master=master_uri(settings.get("master", ""), environment),
         host=settings.get("host") or variables or HOST,
     )
+
+
+def _is_loopback(host: str) -> bool:
+    return host in {"localhost", "::1"} or host.startswith("127.")
 
 
 def master_uri(text: str, environment: Mapping[str, str]) -> str:

@@ -6,6 +6,7 @@ again after the connection was lost, as long as the master knows the publisher.
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from collections.abc import Sequence
 from urllib.parse import urlsplit
@@ -13,7 +14,7 @@ from urllib.parse import urlsplit
 from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.handshake import Refused, exchange_headers
 from robocomp_dsl.runtime.middleware.ros1.incoming import TopicReceiver
-from robocomp_dsl.runtime.middleware.ros1.tcpros import ConnectionLost, Stream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
 from robocomp_dsl.runtime.middleware.ros1.xmlrpc import RosApi, RosApiError
 
 CONNECT_S = 2.0
@@ -22,7 +23,7 @@ _TRANSPORT = "TCPROS"
 
 
 class TopicSubscription:
-    """One topic; `own` is the address of the own node, whose messages do not travel."""
+    """One topic; `node` is the name of the own node."""
 
     def __init__(self, receiver: TopicReceiver, node: str) -> None:
         self.receiver = receiver
@@ -47,18 +48,23 @@ class TopicSubscription:
             self._changed.notify_all()
 
     def _run(self, uri: str) -> None:
+        is_reported = False
         while True:
             pause = RETRY_S
             try:
                 stream, peer = self._connect(uri)
-                self.receiver.receive(stream, peer)
             except Refused as error:
-                self.receiver.warn(f"refused {uri}", "%s at %s: %s", "the publisher", uri, error)
+                self.receiver.warn(f"refused {uri}", "the publisher at %s: %s", uri, error)
                 pause = 4 * RETRY_S
-            except (ConnectionLost, RosApiError) as error:
-                if not self._closed and uri in self._publishers:
+            except (PeerLost, RosApiError) as error:
+                if not is_reported and not self._is_ended(uri):
+                    is_reported = True
                     name = self.receiver.topic.name
                     self.receiver.warn(uri, "no connection to a publisher of %s: %s", name, error)
+            else:
+                is_reported = False
+                with contextlib.suppress(PeerLost):  # a publisher that ends
+                    self.receiver.receive(stream, peer)
             with self._changed:
                 self._changed.wait_for(lambda: self._is_ended(uri), pause)
                 if self._is_ended(uri):
@@ -68,8 +74,8 @@ class TopicSubscription:
     def _is_ended(self, uri: str) -> bool:
         return self._closed or uri not in self._publishers
 
-    def _connect(self, uri: str) -> tuple[Stream, str]:
-        """A connection that brings messages. Raises `ConnectionLost` and `RosApiError`."""
+    def _connect(self, uri: str) -> tuple[TcprosStream, str]:
+        """A connection that brings messages. Raises `PeerLost` and `RosApiError`."""
         api = RosApi(uri, CONNECT_S)
         topic = self.receiver.topic.name
         try:
@@ -77,14 +83,14 @@ class TopicSubscription:
         finally:
             api.close()
         if not (isinstance(reply, list) and len(reply) >= 3 and isinstance(reply[2], int)):
-            raise ConnectionLost(f"{uri} offers {reply!r:.60} instead of TCPROS, host and port")
+            raise PeerLost(f"{uri} offers {reply!r:.60} instead of TCPROS, host and port")
         host = str(reply[1]) or urlsplit(uri).hostname or ""
         stream = tcpros.connect(host, reply[2], CONNECT_S)
         try:
             header = exchange_headers(stream, self.receiver.header(), CONNECT_S)
             if refusal := self.receiver.refusal(header):
                 raise Refused(refusal)
-        except ConnectionLost:
+        except PeerLost:
             stream.close()
             raise
         return stream, header.get("callerid", uri)

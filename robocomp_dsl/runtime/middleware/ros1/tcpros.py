@@ -25,7 +25,7 @@ MAX_HEADER_BYTES = 1 << 20
 _CHUNK = 1 << 16
 
 
-class ConnectionLost(Exception):
+class PeerLost(Exception):
     """The connection ended, or its deadline passed (`timed_out`)."""
 
     def __init__(self, reason: str, *, timed_out: bool = False) -> None:
@@ -66,17 +66,17 @@ def parse_header(data: bytes) -> dict[str, str]:
     return fields
 
 
-def connect(host: str, number: int, timeout: float) -> Stream:
-    """A connection to host and TCP port. Raises `ConnectionLost`."""
+def connect(host: str, number: int, timeout: float) -> TcprosStream:
+    """A connection to host and TCP port. Raises `PeerLost`."""
     try:
         opened = socket.create_connection((host, number), timeout)
     except (OSError, UnicodeError, OverflowError) as error:
         timed_out = isinstance(error, TimeoutError)
-        raise ConnectionLost(failure_reason(error), timed_out=timed_out) from None
-    return Stream(opened)
+        raise PeerLost(failure_reason(error), timed_out=timed_out) from None
+    return TcprosStream(opened)
 
 
-class Stream:
+class TcprosStream:
     """One connection. `deadline` is a time of `time.monotonic`, None for no limit.
 
     `bytes_in` and `bytes_out` count what travelled.
@@ -112,13 +112,13 @@ class Stream:
             received = self.socket.recv(_CHUNK) if into is None else self.socket.recv_into(into)
         except (OSError, ValueError) as error:
             timed_out = isinstance(error, TimeoutError)
-            raise ConnectionLost(failure_reason(error), timed_out=timed_out) from None
+            raise PeerLost(failure_reason(error), timed_out=timed_out) from None
         if not received:
-            raise ConnectionLost("the peer closed the connection")
+            raise PeerLost("the peer closed the connection")
         return received
 
     def take(self, size: int) -> bytes | memoryview:
-        """The next `size` bytes; many are received into their place. Raises `ConnectionLost`."""
+        """The next `size` bytes; many are received into their place. Raises `PeerLost`."""
         at = self._at
         end = at + size
         if end > len(self._buffer):
@@ -137,7 +137,7 @@ class Stream:
         try:
             target = np.empty(size, np.uint8).data
         except MemoryError:
-            raise ConnectionLost(f"there is no memory for a message of {size} bytes") from None
+            raise PeerLost(f"there is no memory for a message of {size} bytes") from None
         filled = len(self._buffer) - self._at
         target[:filled] = self._buffer[self._at :]
         self._buffer, self._at = b"", 0
@@ -147,18 +147,18 @@ class Stream:
         return target.toreadonly()
 
     def frame(self, limit: int = MAX_MESSAGE_BYTES) -> bytes | memoryview:
-        """The next message. Raises `ConnectionLost`, and `MalformedMessage` if it is too long."""
+        """The next message. Raises `PeerLost`, and `MalformedMessage` if it is too long."""
         (size,) = LENGTH.unpack(self.take(4))
         if size > limit:
             raise MalformedMessage(f"a message of {size} bytes, at most {limit} are accepted")
         return self.take(size)
 
     def header(self) -> dict[str, str]:
-        """The header of the peer. Raises `ConnectionLost` and `MalformedMessage`."""
+        """The header of the peer. Raises `PeerLost` and `MalformedMessage`."""
         return parse_header(bytes(self.frame(MAX_HEADER_BYTES)))
 
     def send(self, *buffers: Any) -> None:
-        """Send all bytes. Raises `ConnectionLost`."""
+        """Send all bytes. Raises `PeerLost`."""
         try:
             self._limit()
             rest = self._rest(buffers, self.socket.sendmsg(buffers))
@@ -166,7 +166,7 @@ class Stream:
                 self.socket.sendall(rest)
         except (OSError, ValueError) as error:
             timed_out = isinstance(error, TimeoutError)
-            raise ConnectionLost(failure_reason(error), timed_out=timed_out) from None
+            raise PeerLost(failure_reason(error), timed_out=timed_out) from None
         self.bytes_out += sum(map(len, buffers))
 
     def send_now(self, buffers: tuple[Any, ...]) -> memoryview:
@@ -202,7 +202,7 @@ class Stream:
             return True
 
     def close(self) -> None:
-        """End the connection; a thread that reads it gets `ConnectionLost`."""
+        """End the connection; a thread that reads it gets `PeerLost`."""
         with contextlib.suppress(OSError):
             self.socket.shutdown(socket.SHUT_RDWR)
         self.socket.close()

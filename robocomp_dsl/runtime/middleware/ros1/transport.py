@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import threading
 
@@ -23,6 +24,8 @@ from robocomp_dsl.runtime.middleware.ros_common.interface_types import is_topic
 from robocomp_dsl.runtime.middleware.ros_common.topics import subscribed_name
 from robocomp_dsl.runtime.middleware.transport import TransportContext
 from robocomp_dsl.runtime.presence.port_record import PortRecord
+
+log = logging.getLogger("robocomp")
 
 
 def open_transport(context: TransportContext) -> Ros1Transport:
@@ -109,6 +112,12 @@ class Ros1Transport:
     def __init__(self, context: TransportContext) -> None:
         self._context = context
         settings = read_settings(context.settings, os.environ)
+        if settings.is_unreachable:
+            log.warning(
+                "%s: nodes on other machines, such as that of the master %s, cannot reach it at"
+                " %s: set ros1.host or ROS_IP to the address of this machine",
+                *(context.component, settings.master, settings.host),
+            )
         self.node = RosNode(context.component, settings, context.fail)
         self._lock = threading.Lock()
         self._clients: list[Ros1Client] = []

@@ -11,6 +11,8 @@ import xmlrpc.client
 from typing import Any
 from xml.parsers.expat import ExpatError
 
+from robocomp_dsl.runtime.middleware.ros1.tcpros import failure_reason
+
 SUCCESS = 1
 
 
@@ -53,7 +55,7 @@ class RosApi:
             raise RosApiError(reason, is_unreachable=True) from None
         except (OSError, http.client.HTTPException) as error:
             self._transport.close()
-            reason = f"{self.uri} cannot be reached: {error}"
+            reason = f"{self.uri} cannot be reached: {failure_reason(error)}"
             raise RosApiError(reason, is_unreachable=True) from None
         except xmlrpc.client.Fault as error:
             raise RosApiError(f"{self.uri}: {method} failed: {error.faultString}") from None

@@ -12,6 +12,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Sequence
+from typing import TypeAlias
 
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.throttle import Throttle
@@ -24,11 +25,14 @@ from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost, Stream
 
 DEPTH = 1000
 """Messages on their way to one reader, if the port states no depth."""
+MAX_BYTES = 1 << 27
+"""Of all messages on their way to one reader."""
 RETRY_S = 0.5
 CONNECT_S = 2.0
 CLOSE_S = 0.5
 """After the port was closed, the last messages have this time."""
 log = logging.getLogger("robocomp")
+_Queued: TypeAlias = tuple[Part, OperationCounts]
 
 
 class OutputLink:
@@ -54,11 +58,18 @@ class OutputLink:
         self._throttle = Throttle()
         self._changed = threading.Condition()
         self._stream: Stream | None = None
-        self._messages: deque[Part] = deque()
+        self._messages: deque[_Queued] = deque()
+        self._bytes = 0
+        self._drops = 0
         self._is_sending = False
         self._stalled = False
         self._closed = False
         self._thread = threading.Thread(target=self._run, name=f"yarp {sender} output", daemon=True)
+
+    @property
+    def queued_bytes(self) -> int:
+        """The size of what is on its way to the reader."""
+        return self._bytes
 
     def start(self, stream: Stream | None = None) -> None:
         """Send from now on, over `stream` if it is open already."""
@@ -75,10 +86,12 @@ class OutputLink:
                 sent = self._send_now(message.parts)
                 if sent == message.wire_size:
                     return
-                self._messages.append(message.rest(sent))
+                self._append(message.rest(sent), counts)
                 self._is_sending = sent > 0  # a rest is never dropped
-            elif self._has_room(counts):
-                self._messages.append(message.owned(text=carrier.startswith("text")))
+            else:
+                data = message.owned(text=carrier.startswith("text"))
+                if self._has_room(len(data), counts):
+                    self._append(data, counts)
             self._changed.notify_all()
 
     def _send_now(self, parts: Sequence[Part]) -> int:
@@ -91,17 +104,40 @@ class OutputLink:
         except OSError:
             return 0  # the thread of the link finds out why
 
-    def _has_room(self, counts: OperationCounts) -> bool:
-        if self._is_short():
+    def _append(self, data: Part, counts: OperationCounts) -> None:
+        self._messages.append((data, counts))
+        self._bytes += len(data)
+
+    def _remove(self, index: int) -> OperationCounts:
+        """Take a message out of the queue; returns the counts of its operation."""
+        data, counts = self._messages[index]
+        del self._messages[index]
+        self._bytes -= len(data)
+        return counts
+
+    def _drop(self, counts: OperationCounts) -> None:
+        """Count a message that the reader does not get."""
+        counts.drops += 1
+        self._drops += 1
+
+    def _has_room(self, size: int, counts: OperationCounts) -> bool:
+        if self._has_room_for(size):
             self._stalled = False
             return True
         if not self._reliable:
-            del self._messages[int(self._is_sending)]
-            counts.drops += 1
+            while not self._has_room_for(size):
+                self._drop(self._remove(int(self._is_sending)))
+            if self._throttle.allows("slow"):
+                log.warning(
+                    "%s: %s does not take the messages in time; it has lost %d",
+                    *(self._sender, self.address.name, self._drops),
+                )
             return True
         if not self._stalled:
-            self._changed.wait_for(self._may_append, bounded_queue.HOLD_S)
-            if not self._closed and self._is_short():
+            self._changed.wait_for(
+                lambda: self._closed or self._has_room_for(size), bounded_queue.HOLD_S
+            )
+            if not self._closed and self._has_room_for(size):
                 return True
             self._stalled = True
             if self._throttle.allows("held"):
@@ -110,14 +146,13 @@ class OutputLink:
                     " loses messages",
                     *(self.address.name, bounded_queue.HOLD_S * 1000),
                 )
-        counts.drops += 1
+        self._drop(counts)
         return False
 
-    def _may_append(self) -> bool:
-        return self._closed or self._is_short()
-
-    def _is_short(self) -> bool:
-        return len(self._messages) - self._is_sending < self._depth
+    def _has_room_for(self, size: int) -> bool:
+        """Whether a message of `size` bytes fits; one always does."""
+        waiting = len(self._messages) - self._is_sending
+        return not waiting or (waiting < self._depth and self._bytes + size <= MAX_BYTES)
 
     def _run(self) -> None:
         while True:
@@ -152,7 +187,8 @@ class OutputLink:
         with self._changed:
             stream, self._stream = self._stream, None
             if self._is_sending and self._messages:
-                self._messages.popleft()  # a rest, which a new connection cannot take
+                # Perhaps a rest, which a new connection cannot take.
+                self._drop(self._remove(0))
             self._is_sending = False
         if stream:
             stream.close()
@@ -180,12 +216,12 @@ class OutputLink:
                         raise ConnectionLost("the reader closed the connection")
                     continue
                 self._is_sending = True
-                data = self._messages[0]
+                data, _ = self._messages[0]
             stream.send(data)
             outgoing.read_ack(stream, carrier)
             with self._changed:
                 if self._messages:
-                    self._messages.popleft()
+                    self._remove(0)
                 self._is_sending = False
                 self._changed.notify_all()
 
@@ -202,7 +238,8 @@ class OutputLink:
             self._closed = True
             stream = self._stream
             if stream is None:
-                self._messages.clear()
+                while self._messages:
+                    self._drop(self._remove(0))
             self._changed.notify_all()
         if threading.current_thread() is self._thread or not self._thread.is_alive():
             return

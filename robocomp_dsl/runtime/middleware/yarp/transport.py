@@ -83,6 +83,8 @@ class YarpTransport:
         self._clients: list[YarpServiceClient] = []
         self.outputs: dict[str, OutputLinks] = {}
         """The outgoing connections of published ports, by port."""
+        self.received: dict[str, YarpPort] = {}
+        """Served and subscribed ports."""
 
     def _layout_of(self, at: Endpoint) -> Layout:
         """The layout of the messages of a port: its own, that of its interface, or the common."""
@@ -119,6 +121,8 @@ class YarpTransport:
         except MiddlewareError:
             receiver.close()
             raise
+
+        self.received[at.port] = opened
 
         def close() -> None:
             self._registration.remove(opened)

@@ -18,7 +18,7 @@ from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.connection import bounded_queue
 from robocomp_dsl.runtime.connection.endpoint import Qos
-from robocomp_dsl.runtime.middleware.ros1.tcpros import ConnectionLost, Stream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
 
 DEPTH = 1000
 """Messages on their way to one subscriber, if the port states no depth."""
@@ -33,7 +33,7 @@ link_numbers = itertools.count(1)
 log = logging.getLogger("robocomp")
 
 
-class OutputLink:
+class SubscriberLink:
     """One subscriber, `peer` by its name.
 
     `open_stream` opens the connection, also again after it was lost; None: the subscriber opened
@@ -45,9 +45,9 @@ class OutputLink:
         peer: str,
         qos: Qos,
         *,
-        stream: Stream | None = None,
-        open_stream: Callable[[], Stream] | None = None,
-        on_end: Callable[[OutputLink], None] | None = None,
+        stream: TcprosStream | None = None,
+        open_stream: Callable[[], TcprosStream] | None = None,
+        on_end: Callable[[SubscriberLink], None] | None = None,
     ) -> None:
         self.peer = peer
         self.number = next(link_numbers)
@@ -150,7 +150,7 @@ class OutputLink:
             try:
                 if self._send_queued():
                     return
-            except ConnectionLost as error:
+            except PeerLost as error:
                 if self._lost(str(error)):
                     return
 
@@ -159,7 +159,7 @@ class OutputLink:
         while not self._closed and self._open:
             try:
                 stream = self._open()
-            except ConnectionLost as error:
+            except PeerLost as error:
                 if self._lost(str(error)):
                     return False
                 with self._changed:
@@ -188,7 +188,7 @@ class OutputLink:
         return False
 
     def _send_queued(self) -> bool:
-        """Send what arrives; returns whether the link was closed. Raises `ConnectionLost`."""
+        """Send what arrives; returns whether the link was closed. Raises `PeerLost`."""
         stream = self._stream
         assert stream is not None  # noqa: S101 - it has just been connected
         while True:
@@ -200,7 +200,7 @@ class OutputLink:
                         stream.close()
                         return True
                     if stream.is_closed():
-                        raise ConnectionLost("the subscriber closed the connection")
+                        raise PeerLost("the subscriber closed the connection")
                     continue
                 self._is_sending = True
                 buffers = self._queue[0]

@@ -1,0 +1,126 @@
+"""A ROS 1 node on rospy, which knows nothing of this project; see `ros1_peers`.
+
+It runs with the system's Python. It answers each line, a JSON list of a command and its arguments,
+with a line of JSON.
+"""
+
+import importlib
+import json
+import sys
+
+import genpy.dynamic
+import rospy
+from std_msgs.msg import String
+from std_srvs.srv import SetBool, SetBoolResponse
+
+
+def message_class(type_):
+    package, name = type_.split("/")
+    return getattr(importlib.import_module(f"{package}.msg"), name)
+
+
+def plain(value):
+    if isinstance(value, genpy.rostime.TVal):
+        return [value.secs, value.nsecs]
+    if hasattr(value, "_slot_types"):
+        return {name: plain(getattr(value, name)) for name in value.__slots__}
+    if isinstance(value, bytes):
+        return {"bytes": len(value), "sum": sum(value)}
+    if isinstance(value, (list, tuple)):
+        return [plain(each) for each in value]
+    return value
+
+
+class Peer:
+    def __init__(self, name):
+        rospy.init_node(name, disable_signals=True)
+        self.name = name
+        self.messages = {}
+        self.publishers = {}
+        self.dynamic = {}
+        out = rospy.Publisher(f"/{name}/out", String, queue_size=100, tcp_nodelay=True)
+        rospy.Subscriber(f"/{name}/in", String, out.publish, tcp_nodelay=True)
+        self.map = rospy.Publisher(f"/{name}/map", String, queue_size=1, latch=True)
+        self.map.publish("latched by rospy")
+        rospy.Service(f"/{name}/set", SetBool, self.set)
+
+    def set(self, request):
+        if not request.data:
+            raise ValueError("rospy refuses")
+        return SetBoolResponse(True, "rospy")
+
+    def type_of(self, type_):
+        return self.dynamic.get(type_) or message_class(type_)
+
+    def define(self, type_, text):
+        self.dynamic.update(genpy.dynamic.generate_dynamic(type_, text))
+        return self.dynamic[type_]._md5sum
+
+    def subscribe(self, topic, type_):
+        messages = self.messages[topic] = []
+        rospy.Subscriber(topic, self.type_of(type_), lambda m: messages.append(plain(m)))
+
+    def received(self, topic):
+        return self.messages[topic]
+
+    def advertise(self, topic, type_):
+        self.publishers[topic] = rospy.Publisher(topic, self.type_of(type_), queue_size=10)
+
+    def connections(self, topic):
+        return self.publishers[topic].get_num_connections()
+
+    def publish(self, topic, fields):
+        publisher = self.publishers[topic]
+        message = publisher.data_class()
+        for name, value in fields.items():
+            *path, last = name.split(".")
+            target = message
+            for part in path:
+                target = getattr(target, part)
+            setattr(target, last, value)
+        publisher.publish(message)
+
+    def publish_image(self, topic, size):
+        message = self.publishers[topic].data_class()
+        message.data = bytes(range(256)) * (size // 256)
+        self.publishers[topic].publish(message)
+
+    def call(self, name, data):
+        rospy.wait_for_service(name, 30)
+        try:
+            reply = rospy.ServiceProxy(name, SetBool)(data)
+        except rospy.ServiceException as error:
+            return ["failed", str(error)]
+        return [reply.success, reply.message]
+
+    def call_often(self, name, count):
+        rospy.wait_for_service(name, 30)
+        proxy = rospy.ServiceProxy(name, SetBool, persistent=True)
+        return [proxy(True).message for _ in range(count)]
+
+    def parameter(self, name):
+        return rospy.get_param(name, None)
+
+    def set_parameter(self, name, value):
+        rospy.set_param(name, value)
+
+
+def reply(value):
+    sys.stdout.write(json.dumps(value) + "\n")
+    sys.stdout.flush()
+
+
+def main():
+    peer = Peer(sys.argv[1])
+    reply("ready")
+    for line in sys.stdin:
+        command, *arguments = json.loads(line)
+        try:
+            answer = getattr(peer, command)(*arguments)
+        except Exception as error:
+            answer = {"error": repr(error)}
+        reply(answer)
+
+
+if __name__ == "__main__":
+    main()
