@@ -59,7 +59,10 @@ class ExpressionPrinter:
         return f"{self.text(node.value)}.{self._names.field(node.value.type, node.field)}"
 
     def _item(self, node: bv.ItemAt) -> str:
-        return f"values.element({self.text(node.value)}, {node.index})"
+        item = f"values.element({self.text(node.value)}, {node.index})"
+        holder = node.value.type.number if isinstance(node.value.type, ItemsType) else None
+        is_rounded = holder in (FLOAT, DOUBLE) and node.type not in (FLOAT, DOUBLE)
+        return f"int({item})" if is_rounded else item
 
     def _selected(self, node: bv.Selected) -> str:
         indices = ", ".join(map(str, node.indices))

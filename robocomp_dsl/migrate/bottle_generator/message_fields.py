@@ -28,7 +28,7 @@ _RESERVED = re.compile(r"general|message|mux\d*")
 _USED_KEYS = {"single_value": "msg", "list": "msg", "msg": "msg", "mux": "mux"}
 
 
-class MessageReader:
+class FieldsReader:
     """Reads fields recursively; `used` are the names of the nested sections that were read."""
 
     def __init__(

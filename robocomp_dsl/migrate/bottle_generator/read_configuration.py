@@ -18,7 +18,7 @@ from robocomp_dsl.migrate.bottle_generator.configuration import (
 )
 from robocomp_dsl.migrate.bottle_generator.ini_file import IniSection, IniValue, read_ini
 from robocomp_dsl.migrate.bottle_generator.keys import SectionReader
-from robocomp_dsl.migrate.bottle_generator.message_fields import MessageReader
+from robocomp_dsl.migrate.bottle_generator.message_fields import FieldsReader
 from robocomp_dsl.source import Source
 
 _MUX = re.compile(r"mux(\d+)")
@@ -51,7 +51,7 @@ class _Reader:
             self._missing_section("message", "the fields of the output")
             return None
         to_ros = self._direction(general, top)
-        message = MessageReader(self._sections, muxes, self._report, to_ros=to_ros)
+        message = FieldsReader(self._sections, muxes, self._report, to_ros=to_ros)
         fields = message.read(top)
         self._report_unknown_sections(message.used)
         if output is None:

@@ -63,7 +63,7 @@ def test_migrated_application_connects_programs_of_yarp(
         writer.stdin.flush()
         app.until("hello 3")
         app.process.terminate()
-        assert app.end() == 0
+        assert app.end() == 0, app.lines
     assert "no connection" not in tools.run("ping", "/out").stdout
     assert "/left/in" not in tools.run("ping", "/out").stdout
 
@@ -87,4 +87,4 @@ def test_external_connection_of_yarp_is_made_again_after_the_writer_restarts(
         writer.stdin.flush()
         app.until("again 4")
         app.process.terminate()
-        assert app.end() == 0
+        assert app.end() == 0, app.lines

@@ -110,7 +110,7 @@ def test_migrated_application_runs_and_its_connection_carries_data(
         words = ["/camera/Scan:o", "external", "/view/Scan:i", "yarp", "(fast_tcp)", "connected"]
         assert shown[1].split()[:6] == words
         app.process.terminate()
-        assert app.end() == 0
+        assert app.end() == 0, app.lines
     name_server.close()
 
 
@@ -139,5 +139,5 @@ def test_migrated_robot_calibrates_its_simulated_joints(rcgen, rcdeploy, tmp_pat
             positions = [float(each) for each in board.getState().position]
             assert positions == pytest.approx(HOME, abs=0.03)
         app.process.terminate()
-        assert app.end() == 0
+        assert app.end() == 0, app.lines
         assert not app.has("failed"), app.lines

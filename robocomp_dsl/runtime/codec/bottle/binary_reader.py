@@ -30,10 +30,8 @@ _SHARED_BYTES = 1 << 14
 def read_binary(data: Bytes, profile: Profile) -> Bottle:
     """The Bottle that `data` is. Raises `MalformedMessage`."""
     at = 0
-    if len(data) > _SHARED_BYTES:
-        data = memoryview(data).toreadonly()
-    else:
-        data = bytes(data)
+    is_shared = len(data) > _SHARED_BYTES
+    data = memoryview(data).toreadonly() if is_shared else bytes(data)
 
     def take(size: int) -> Bytes:
         nonlocal at
