@@ -106,7 +106,9 @@ class _Resolver:
             case ast.Struct():
                 units = ROS_UNITS.get(tree.ros_name, {})
                 fields = self._fields(tree.fields, tree.constants, units)
-                return types.Struct(*head, fields, self._constants(tree.constants), tree.ros_name)
+                constants = self._constants(tree.constants)
+                text = _ros_definition(tree)
+                return types.Struct(*head, fields, constants, tree.ros_name, text)
             case ast.ExceptionDecl():
                 return types.ExceptionType(*head, self._fields(tree.fields))
             case ast.Enum():
@@ -291,3 +293,11 @@ class _Resolver:
             notes=[Note(node.span, f"`{node.text}` is used here") for node in uses if node],
             help="remove one `extends`" if is_interface else advice,
         )
+
+
+def _ros_definition(tree: ast.Struct) -> str:
+    """The statements of a ROS definition as written, if its md5 does not follow from its fields."""
+    lines = [line.strip() for line in tree.span.text.splitlines()] if tree.ros_name else []
+    statements = [line for line in lines if line and not line.startswith(("#", "---"))]
+    needs_text = tree.constants or any(line.startswith("char") for line in statements)
+    return "\n".join(statements) if needs_text else ""
