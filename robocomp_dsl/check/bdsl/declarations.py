@@ -104,7 +104,7 @@ def _stamp_path(
         context.report.add(
             value_codes.TIME_TYPE,
             path.span,
-            f"`{path.text}` is no field of a message with several fields",
+            f"`stamp {path.text}` needs a message with fields, as the only parameter",
             help="leave out `stamp`, and use the value in the output",
         )
         return ()
