@@ -6,6 +6,7 @@ the errors of the files that it imports.
 
 from __future__ import annotations
 
+from robocomp_dsl.check.bdsl.actions import resolve_action
 from robocomp_dsl.check.bdsl.addresses import check_addresses
 from robocomp_dsl.check.bdsl.context import BridgeContext
 from robocomp_dsl.check.bdsl.declarations import check_names, resolve_function, resolve_input
@@ -37,7 +38,11 @@ def resolve_bdsl(
     written = find_middleware(tree.middleware, workspace.middlewares, report)
     context.middleware = written or DEFAULT
     valid = check_names(
-        (*tree.inputs, *tree.functions, *tree.hubs, *tree.outputs, *tree.services), context
+        (
+            *(*tree.inputs, *tree.functions, *tree.hubs),
+            *(*tree.outputs, *tree.services, *tree.actions),
+        ),
+        context,
     )
     for ports in (tree.inputs, tree.outputs, tree.services):
         context.port_names.update(port.name.text.lower() for port in ports)
@@ -48,18 +53,21 @@ def resolve_bdsl(
     rate_hz = rate_of(tree.rate, context)
     outputs = [resolve_output(output, rate_hz, names) for output in tree.outputs]
     services = [resolve_service(service, context) for service in tree.services]
+    actions = [resolve_action(action, context) for action in tree.actions]
     inputs = tuple(source for source in context.inputs.values() if source)
+    modules = (*scope.direct, *context.further_modules)
     bridge = Bridge(
         name=tree.name.text,
         path=path,
         span=tree.name.span,
         modules=scope.direct,
-        types=types.module(scope.direct, f"Types and topics of the bridge {tree.name.text}."),
+        types=types.module(modules, f"Types and topics of the bridge {tree.name.text}."),
         inputs=inputs,
         functions=tuple(function for function in context.functions.values() if function),
         hubs=resolved_hubs,
         outputs=tuple(output for output in outputs if output),
         services=tuple(service for service in services if service),
+        actions=tuple(action for action in actions if action),
         middleware=context.middleware,
         doc=tree.doc,
     )
@@ -86,12 +94,12 @@ def _declare(tree: ast.Bridge, valid: set[int], context: BridgeContext) -> None:
 
 def _check_content(tree: ast.Bridge, context: BridgeContext) -> None:
     """Report a bridge that does nothing, and declarations that nothing uses."""
-    if not tree.outputs and not tree.services:
+    if not tree.outputs and not tree.services and not tree.actions:
         context.report.add(
             codes.EMPTY_BRIDGE,
             tree.name.span,
             f"the bridge `{tree.name.text}` sends nothing",
-            help="add an `output` or a `service`",
+            help="add an `output`, a `service` or an `action`",
         )
         return
     for kind, items, declared in (

@@ -15,7 +15,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from robocomp_dsl.check.workspace.ros_action_messages import action_message
-from robocomp_dsl.check.workspace.source_cache import SourceCache
+from robocomp_dsl.check.workspace.source_cache import SourceCache, is_regular_file
 from robocomp_dsl.diagnostics import nearest
 from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
@@ -82,7 +82,7 @@ class RosDefinitions:
     def _find(self, name: str, folders: list[Path], *, is_real: bool = False) -> Path | None:
         for folder in folders:
             for path in _candidates(folder, name):
-                if path.is_file() if is_real else self._files.exists(path):
+                if is_regular_file(path) if is_real else self._files.exists(path):
                     return path
         return None
 
