@@ -167,9 +167,7 @@ def _command(tree: ast.Command, action: ast.Action, scope: ActionScope) -> Actio
         return None
     used, arguments = found
     owner = action.name.text
-    port = bridge_port(
-        PortKind.OUTPUT, tree.name, tree.place, used, scope.context, owner=owner
-    )
+    port = bridge_port(PortKind.OUTPUT, tree.name, tree.place, used, scope.context, owner=owner)
     if arguments is None or port is None:
         return None
     return ActionCommand(tree.name.text, port, arguments, tree.is_on_cancel)

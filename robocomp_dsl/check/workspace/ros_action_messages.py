@@ -48,6 +48,8 @@ def _text(definition: str, found: re.Match[str]) -> str:
         sections = _SEPARATOR.split(definition)
         index = PARTS.index(part)
         return sections[index] if index < len(sections) else ""
-    status = "actionlib_msgs/GoalID goal_id" if part == "Goal" else "actionlib_msgs/GoalStatus status"
+    status = (
+        "actionlib_msgs/GoalID goal_id" if part == "Goal" else "actionlib_msgs/GoalStatus status"
+    )
     own = f"{found['package']}/{found['action']}{part} {part.lower()}"
     return f"std_msgs/Header header\n{status}\n{own}\n"

@@ -97,7 +97,9 @@ def _conditions(
         places.append((field, place(condition[0].span)))
         text = " and ".join(printer.text(part) for part in condition)
         if condition is conditions[-1]:
-            tests.append(f"return {printer.statement(condition[0]) if len(condition) == 1 else text}")
+            tests.append(
+                f"return {printer.statement(condition[0]) if len(condition) == 1 else text}"
+            )
         else:
             tests += [f"if {text}:", "    return True"]
     return MappingFunction(

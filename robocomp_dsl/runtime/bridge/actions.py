@@ -184,9 +184,7 @@ class BridgedAction:
         states = [self._states[name] for name in self.spec.states]
         return function(self._context, self._worker, goal.value, *states)
 
-    def _lose(
-        self, error: Exception, places: Mapping[str, str] | None = None
-    ) -> MessageFailure:
+    def _lose(self, error: Exception, places: Mapping[str, str] | None = None) -> MessageFailure:
         found = self.spec.places if places is None else places
         failure = describe_failure(error, self._context.field, found)
         self._losses.lose_output(failure.reason, failure.text, failure.place)
