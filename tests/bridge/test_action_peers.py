@@ -12,36 +12,11 @@ from typing import Any
 import pytest
 
 from robocomp_dsl.runtime import types as rt
-from tests.bridge.bridge_run import Peer, generate, running
+from tests.bridge.bridge_run import Peer, running
+from tests.bridge.lift_bridge import generate_lift
 from tests.cli.rcgen_run import Rcgen
 from tests.middleware.ros1.ros1_peers import LOOPBACK, PYTHON, Master, needs_ros1
 from tests.support.waiting import wait_until
-
-ACTION = "int32 goal\n---\nint32 result\n---\nint32 feedback\n"
-BRIDGE = """
-import "actionlib/action/Test.action";
-
-Bridge lifts
-{
-    action lift : actionlib::Test over ros1 at "/lift"
-    {
-        command move : (string verb, int height) over yarp at "/lift/command:i"
-        {
-            verb = "move";
-            height = goal.goal;
-        };
-        command stop : (string verb, int height) over yarp at "/lift/command:i" on cancel
-        {
-            verb = "stop";
-        };
-        state lift : (int height, bool moving) over yarp at "/lift/state:o";
-        feedback.feedback = lift.height;
-        result.result = lift.height;
-        succeed when lift.moving == false and lift.height == goal.goal;
-        abort when lift.height > 100;
-    };
-};
-"""
 
 
 class LiftCommand(rt.Struct):
@@ -117,10 +92,7 @@ def client(master: Master) -> Iterator[ActionClient]:
 def test_action_serves_actionlib_client_with_yarp_program(
     rcgen: Rcgen, tmp_path: Path, domain: str, peer: Callable[..., Peer], client: ActionClient
 ) -> None:
-    folder = tmp_path / "bridge"
-    (folder / "actionlib" / "action").mkdir(parents=True)
-    (folder / "actionlib" / "action" / "Test.action").write_text(ACTION)
-    generate(rcgen, folder, BRIDGE)
+    folder = generate_lift(rcgen, tmp_path / "bridge")
     commands = peer("yarp", lift="/lift/command:i").subscribe(COMMANDS, "lift")
     push = peer("yarp", lift="/lift/state:o").publisher(STATES, "lift")
     with running(folder, "--domain", domain) as worker:

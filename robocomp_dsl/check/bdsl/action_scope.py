@@ -44,9 +44,9 @@ class ActionScope:
             return input_value(name.span, state)
         if name.text == "goal":
             return self._goal_value(name.span)
-        if name.text == "now":
-            return Now(name.span, TIME, "", None)
-        self._reject(name)
+        if name.text != "now":
+            self._reject(name)
+        return Now(name.span, TIME, "", None)
 
     def _goal_value(self, span: Span) -> Expression:
         return RequestValue(span, self._goal.type, "", None, self._goal)

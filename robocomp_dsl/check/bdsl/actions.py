@@ -21,6 +21,7 @@ from robocomp_dsl.check.codes import bridge_actions as codes
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.model.bridge_actions import ActionCommand, BridgeAction, Condition
 from robocomp_dsl.model.bridge_ports import BridgeInput, BridgePort
+from robocomp_dsl.model.bridge_values import BuiltValue
 from robocomp_dsl.model.interface import Param
 from robocomp_dsl.model.types import Struct
 from robocomp_dsl.syntax.ast import bdsl as ast
@@ -183,7 +184,9 @@ def _state(tree: ast.Input, action: ast.Action, context: BridgeContext) -> Bridg
     return input_of(tree, port, context).replace(name=port.name) if port else None
 
 
-def _values(tree: ast.Action, types: ActionTypes, scope: ActionScope) -> tuple | None:
+def _values(
+    tree: ast.Action, types: ActionTypes, scope: ActionScope
+) -> tuple[BuiltValue, ...] | None:
     """The values of feedback and result."""
     is_valid = True
     fields = []

@@ -5,6 +5,8 @@ In: the tree of a condition. Out: bool expressions, all of which must be true, a
 
 from __future__ import annotations
 
+from typing import NoReturn
+
 from robocomp_dsl.check.bdsl.context import FaultyExpression
 from robocomp_dsl.check.bdsl.expressions import typed, value_for
 from robocomp_dsl.check.bdsl.scopes import Scope
@@ -49,8 +51,12 @@ def _comparison(tree: ast.Comparison, scope: Scope) -> Expression | None:
 
 
 def _bool(value: Expression, scope: Scope) -> Expression:
-    if value.type == BOOL:
-        return value
+    if value.type != BOOL:
+        _reject_value(value, scope)
+    return value
+
+
+def _reject_value(value: Expression, scope: Scope) -> NoReturn:
     found = "a list" if value.is_list else a_type(value.type)
     message = f"`{value.span.text}` is {found}, which is neither true nor false"
     help_ = f"compare it, as in `{value.span.text} > 0`" if value.type in NUMBERS else ""

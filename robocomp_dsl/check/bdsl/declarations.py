@@ -47,7 +47,8 @@ def check_names(
 ) -> set[int]:
     """Report reserved and duplicate names; the `id` of the other items.
 
-    `reserved` are reserved in addition to those of every bridge. Names are compared without case: ports become attributes with lower-case names.
+    `reserved` are reserved in addition to those of every bridge. Names are compared without case:
+    ports become attributes with lower-case names.
     """
     first: dict[str, Name] = {}
     valid: set[int] = set()

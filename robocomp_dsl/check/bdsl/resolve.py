@@ -6,6 +6,8 @@ the errors of the files that it imports.
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 from robocomp_dsl.check.bdsl.actions import resolve_action
 from robocomp_dsl.check.bdsl.addresses import check_addresses
 from robocomp_dsl.check.bdsl.context import BridgeContext
@@ -24,6 +26,8 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.syntax.ast import bdsl as ast
 
+_Declaration: TypeAlias = ast.Input | ast.Function | ast.Hub | ast.Output | ast.Service
+
 
 def resolve_bdsl(
     file: Parsed[ast.File], tree: ast.Bridge, workspace: Workspace, report: Report
@@ -37,13 +41,7 @@ def resolve_bdsl(
     context = BridgeContext(scope, types, workspace, report, is_complete=file.tree.complete)
     written = find_middleware(tree.middleware, workspace.middlewares, report)
     context.middleware = written or DEFAULT
-    valid = check_names(
-        (
-            *(*tree.inputs, *tree.functions, *tree.hubs),
-            *(*tree.outputs, *tree.services, *tree.actions),
-        ),
-        context,
-    )
+    valid = check_names([*_named(tree), *tree.actions], context)
     for ports in (tree.inputs, tree.outputs, tree.services):
         context.port_names.update(port.name.text.lower() for port in ports)
     _declare(tree, valid, context)
@@ -80,6 +78,10 @@ def resolve_bdsl(
     if context.is_complete:
         _check_content(tree, context)
     return bridge
+
+
+def _named(tree: ast.Bridge) -> tuple[_Declaration, ...]:
+    return (*tree.inputs, *tree.functions, *tree.hubs, *tree.outputs, *tree.services)
 
 
 def _declare(tree: ast.Bridge, valid: set[int], context: BridgeContext) -> None:

@@ -18,6 +18,11 @@ def action_code(action: BridgeAction, names: BridgeNames, mapping: MappingCode) 
     """`ActionSpec(…)`."""
     feedback = mapping.function(f"action_{action.name}_feedback")
     result = mapping.function(f"action_{action.name}_result")
+    conditions = [f"action_{action.name}_succeeds"]
+    conditions += [f"action_{action.name}_aborts"] if action.abort else []
+    places = dict(feedback.places) | dict(result.places)
+    for name in conditions:
+        places |= dict(mapping.function(name).places)
     parts = [
         quoted(action.name),
         quoted(place(action.span)),
@@ -31,7 +36,7 @@ def action_code(action: BridgeAction, names: BridgeNames, mapping: MappingCode) 
         f"build_feedback=mapping.{feedback.name}",
         f"build_result=mapping.{result.name}",
         f"succeeds=mapping.action_{action.name}_succeeds",
-        f"places={places_text(tuple(dict((*feedback.places, *result.places)).items()))}",
+        f"places={places_text(tuple(places.items()))}",
     ]
     parts += [f"aborts=mapping.action_{action.name}_aborts"] if action.abort else []
     parts += [f"timeout={python_value(float(action.timeout_s))}"] if action.timeout_s else []

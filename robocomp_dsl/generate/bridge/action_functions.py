@@ -18,6 +18,7 @@ from robocomp_dsl.generate.bridge.mapping_parts import (
     input_locals,
 )
 from robocomp_dsl.generate.bridge.places import place
+from robocomp_dsl.generate.literals import quoted
 from robocomp_dsl.generate.names import unique
 from robocomp_dsl.model.bridge_actions import ActionCommand, BridgeAction, Condition
 from robocomp_dsl.model.bridge_values import BuiltValue
@@ -91,10 +92,11 @@ def _conditions(
     action: BridgeAction, word: str, conditions: tuple[Condition, ...], names: BridgeNames
 ) -> MappingFunction:
     printer, parameters, lines = _with_states(action, names)
-    places, tests = [("", place(action.span))], []
-    field = f"{word.removesuffix('s')} when"
-    for condition in conditions:
+    places, tests = [("", place(action.span))], list[str]()
+    for index, condition in enumerate(conditions):
+        field = f"{word.removesuffix('s')} when{f' ({index + 1})' * (index > 0)}"
         places.append((field, place(condition[0].span)))
+        tests.append(f"at.field = {quoted(field)}")
         text = " and ".join(printer.text(part) for part in condition)
         if condition is conditions[-1]:
             tests.append(
@@ -107,7 +109,7 @@ def _conditions(
         parameters,
         "bool",
         f"Whether a goal of the action `{action.name}` {word} ({place(condition[0].span)}).",
-        (*lines, f'at.field = "{field}"', *tests),
+        (*lines, *tests),
         tuple(dict(places).items()),
     )
 

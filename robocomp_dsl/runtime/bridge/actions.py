@@ -66,7 +66,10 @@ class BridgedAction:
 
     def connections(self) -> dict[str, ActionInput]:
         """What takes the messages of each input, by its name."""
-        takers = {self.spec.goal: self.accept, self.spec.cancel: self.cancel}
+        takers: dict[str, Callable[[Any], None]] = {
+            self.spec.goal: self.accept,
+            self.spec.cancel: self.cancel,
+        }
         takers |= {name: self._taker(name) for name in self.spec.states}
         return {name: ActionInput(take) for name, take in takers.items()}
 
@@ -122,7 +125,7 @@ class BridgedAction:
     def tick(self) -> None:
         """Abort a goal that takes too long, and publish the status; called at `STATUS_RATE`."""
         goal = self.goals.running
-        if goal is not None and self.goals.has_expired:
+        if goal is not None and self.goals.has_expired():
             text = f"not reached within {self.spec.timeout:g} s"
             self._stop(goal, GoalState.ABORTED, text)
         else:

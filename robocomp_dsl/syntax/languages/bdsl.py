@@ -45,7 +45,8 @@ class BdslBuilder(ActionBuilder, ExpressionBuilder, TypeBuilder, QosBuilder):
 
     ITEM_NAMES: ClassVar = {
         "file_item": "`import` or `Bridge`",
-        "bridge_item": "`input`, `hub`, `output`, `function`, `service`, `action`, `middleware`, `rate`",
+        "bridge_item": "`input`, `hub`, `output`, `function`, `service`, `action`, "
+        "`middleware`, `rate`",
         "input_item": "`stamp`, `reliable`, `best_effort`, `priority`, `keep`, `depth`, `latched`, "
         "`deadline`, `liveliness`",
         "hub_item": "`policy`, `max_age`, `length`",
@@ -113,7 +114,16 @@ class BdslBuilder(ActionBuilder, ExpressionBuilder, TypeBuilder, QosBuilder):
         settings = self._port_settings(body)
         return ast.Input(span, name, message, place, doc=self.doc(span), **settings)
 
-    state = input
+    def state(
+        self,
+        span: Span,
+        name: Name,
+        message: ast.TypeRef,
+        place: ast.Place,
+        body: _Block | None,
+    ) -> ast.Input:
+        """`state name : type over yarp at "/hand:o" { … };`."""
+        return self.input(span, name, message, place, body)
 
     def _port_settings(self, body: _Block | None) -> dict[str, Any]:
         """The settings of a port; those of the quality of service become its `qos`."""
