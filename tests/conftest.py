@@ -44,6 +44,10 @@ def pytest_configure(config: pytest.Config) -> None:
     runtime = Path(os.environ["XDG_RUNTIME_DIR"], worker or "alone")
     runtime.mkdir(mode=0o700)
     os.environ["XDG_RUNTIME_DIR"] = str(runtime)
+    # No test meets a ROS master of this machine: nobody listens at this port.
+    os.environ["ROS_MASTER_URI"] = "http://127.0.0.1:9"
+    for variable in ("ROS_IP", "ROS_HOSTNAME"):
+        os.environ.pop(variable, None)
     os.environ["MYPY_CACHE_DIR"] = str(Path(os.environ["XDG_CACHE_HOME"], f"mypy-{runtime.name}"))
 
 

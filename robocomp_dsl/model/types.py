@@ -117,11 +117,16 @@ class Constant(Record):
 
 
 class Struct(Declaration):
-    """A record. `ros_name` is `sensor_msgs/msg/Image` if it was imported from ROS."""
+    """A record. `ros_name` is `sensor_msgs/msg/Image` if it was imported from ROS.
+
+    `definition` is the text of a ROS definition whose md5 does not follow from the fields: it has
+    constants, or types that share one type of IDSL.
+    """
 
     fields: tuple[Field, ...]
     constants: tuple[Constant, ...] = ()
     ros_name: str = ""
+    definition: str = ""
 
     @property
     def type_id(self) -> str:

@@ -11,6 +11,7 @@ from typing import Any
 
 from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.lifecycle import LifecycleState
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.connection.component_ports import ComponentPorts, open_ports
@@ -18,6 +19,7 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
 from robocomp_dsl.runtime.entry_point import _parser, _settings
 from tests.cli.rcgen_run import Rcgen
+from tests.support.waiting import wait_until
 
 NUMBERS = rt.Interface(
     "Test::Numbers", rt.Operation("push", rt.Pattern.PUBLISH, {"numbers": rt.Float64Array})
@@ -60,6 +62,7 @@ def running(folder: Path, *options: str) -> Iterator[Any]:
     runner = Runner(worker, params, settings)
     runner.start()
     try:
+        wait_until(lambda: runner.state is LifecycleState.COMPUTE)
         yield runner.worker
     finally:
         runner.stop()

@@ -39,17 +39,62 @@ pytestmark = [
 ]
 
 
+class Ros:
+    """A ROS master, and programs of ROS that end with the test."""
+
+    def __init__(self) -> None:
+        self._number = free_port()
+        self._started: list[subprocess.Popen[str]] = []
+        self.uri = f"http://{LOOPBACK}:{self._number}"
+
+    def start(self, *command: str) -> subprocess.Popen[str]:
+        """Start a program; the system's Python must not see modules of this environment."""
+        process = subprocess.Popen(
+            command,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+            env={**os.environ, "PYTHONPATH": "", "PATH": f"/usr/bin:{os.environ['PATH']}"},
+        )
+        self._started.append(process)
+        return process
+
+    def start_master(self) -> None:
+        """Start the master, always at the same address."""
+        self._master = self.start("rosmaster", "--core", "-p", str(self._number))
+
+    def restart_master(self) -> None:
+        """End the master, and start another, which knows no nodes."""
+        self.end(self._master)
+        self.start_master()
+
+    def start_node(self) -> subprocess.Popen[str]:
+        """Start the node of rospy."""
+        return self.start(SYSTEM_PYTHON, str(Path(__file__).with_name("rospy_node.py")))
+
+    @staticmethod
+    def end(process: subprocess.Popen[str]) -> None:
+        """End a program at once."""
+        process.kill()
+        process.communicate()
+
+    def close(self) -> None:
+        """End all programs."""
+        for process in self._started:
+            if process.poll() is None:
+                process.kill()
+            process.wait()
+
+
 @pytest.fixture
-def ros(monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
-    """The URI of a ROS master."""
-    number = free_port()
-    uri = f"http://{LOOPBACK}:{number}"
-    monkeypatch.setenv("ROS_MASTER_URI", uri)
+def ros(monkeypatch: pytest.MonkeyPatch) -> Iterator[Ros]:
+    """A ROS master that all programs of the test find."""
+    found = Ros()
+    monkeypatch.setenv("ROS_MASTER_URI", found.uri)
     monkeypatch.setenv("ROS_HOSTNAME", LOOPBACK)
-    command = ["rosmaster", "--core", "-p", str(number)]
-    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as master:
-        yield uri
-        master.kill()
+    found.start_master()
+    yield found
+    found.close()
 
 
 @pytest.fixture
@@ -61,8 +106,14 @@ def tools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Tools]:
     monkeypatch.setenv("YARP_CONFIG_HOME", str(home))
     monkeypatch.delenv("YARP_NAMESPACE", raising=False)
     found.start_name_server()
+    wait_until(lambda: answers(found))
     yield found
     found.close()
+
+
+def answers(tools: Tools) -> bool:
+    """Whether the name server registers and finds ports."""
+    return tools.run("exists", "/root").returncode == 0
 
 
 def collected(process: subprocess.Popen[str]) -> list[str]:
@@ -78,50 +129,84 @@ def collected(process: subprocess.Popen[str]) -> list[str]:
     return lines
 
 
-def test_bridge_of_page_joins_yarp_program_ros_node_and_component(
-    rcgen: Rcgen,
-    tmp_path: Path,
-    domain: str,
-    peer: Callable[..., Peer],
-    ros: str,
-    tools: Tools,
-) -> None:
-    assert ros
+@pytest.fixture
+def bridge_folder(rcgen: Rcgen, tmp_path: Path) -> Path:
+    """The bridge of the page, with a function."""
     (text,) = re.findall(r"```bdsl\n(.*?)```", PAGE.read_text(), re.DOTALL)
     folder = generate(rcgen, tmp_path, text, "rover.bdsl")
     worker_file = folder / "specificworker.py"
     stub = worker_file.read_text()
     worker_file.write_text(stub.replace("return super().calibrated(angles)", "return angles - 1"))
-    node = subprocess.Popen(
-        [SYSTEM_PYTHON, str(Path(__file__).with_name("rospy_node.py"))],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-        env={**os.environ, "PYTHONPATH": ""},
-    )
-    try:
+    return folder
+
+
+class Writer:
+    """`yarp write`, which writes the same angles again and again."""
+
+    def __init__(self, tools: Tools) -> None:
+        self.process = tools.start("write", "/rover/wheels:o")
+
+    def write(self) -> None:
+        """Write one message."""
+        assert self.process.stdin is not None
+        self.process.stdin.write("90.0 180.0\n")
+        self.process.stdin.flush()
+
+
+def test_bridge_of_page_joins_yarp_program_ros_node_and_component(
+    bridge_folder: Path, domain: str, peer: Callable[..., Peer], ros: Ros, tools: Tools
+) -> None:
+    states = collected(ros.start_node())
+    commands = collected(tools.start("read", "/rover/command:i"))
+    writer = Writer(tools)
+    with running(bridge_folder, "--domain", domain) as worker:
+        interface = type(worker.angles_proxy).INTERFACE
+        program = peer("zenoh", shares_domain=True)
+        angles = program.subscribe(interface, "angles", "rover.angles")
+
+        def has_arrived() -> bool:
+            writer.write()
+            return bool(states and angles and len(commands) > 2)
+
+        wait_until(has_arrived)
+        state = json.loads(states[0])
+        assert state["name"] == ["left", "right"]
+        assert state["position"] == pytest.approx([math.pi / 2 - 1, math.pi - 1])
+        assert angles[0].tolist() == pytest.approx([math.pi / 2, math.pi])
+        command = next(line for line in commands if line.startswith("speed"))
+        assert re.fullmatch(r"speed 0\.5 \d+\s*", command)
+
+
+def test_bridge_continues_after_restart_of_programs_and_name_servers(
+    bridge_folder: Path, domain: str, ros: Ros, tools: Tools
+) -> None:
+    node, writer = ros.start_node(), Writer(tools)
+    reader = tools.start("read", "/rover/command:i")
+    states, commands = collected(node), collected(reader)
+
+    def is_passing() -> bool:
+        writer.write()
+        return bool(states and commands)
+
+    with running(bridge_folder, "--domain", domain):
+        wait_until(is_passing)
+        ros.end(node)
+        writer.process.kill()
+        node, writer = ros.start_node(), Writer(tools)
         states = collected(node)
-        commands = collected(tools.start("read", "/rover/command:i"))
-        writer = tools.start("write", "/rover/wheels:o")
-        with running(folder, "--domain", domain) as worker:
-            interface = type(worker.angles_proxy).INTERFACE
-            program = peer("zenoh", shares_domain=True)
-            angles = program.subscribe(interface, "angles", "rover.angles")
-            assert writer.stdin is not None
-
-            def write() -> None:
-                writer.stdin.write("90.0 180.0\n")  # type: ignore[union-attr]
-                writer.stdin.flush()  # type: ignore[union-attr]
-
-            wait_until(lambda: (write(), states and angles and len(commands) > 2)[1])
-            state = json.loads(states[0])
-            assert state["name"] == ["left", "right"]
-            assert state["position"] == pytest.approx([math.pi / 2 - 1, math.pi - 1])
-            assert angles[0].tolist() == pytest.approx([math.pi / 2, math.pi])
-            command = next(line for line in commands if line.startswith("speed"))
-            assert re.fullmatch(r"speed 0\.5 \d+\s*", command)
-    finally:
-        node.kill()
-        node.wait()
-        assert node.stdout is not None
-        node.stdout.close()
+        commands.clear()
+        wait_until(is_passing)
+        ros.restart_master()
+        ros.end(node)
+        node = ros.start_node()
+        states = collected(node)
+        commands.clear()
+        wait_until(is_passing)
+        tools.restart_name_server()
+        wait_until(lambda: answers(tools))
+        writer.process.kill()
+        reader.kill()
+        writer, reader = Writer(tools), tools.start("read", "/rover/command:i")
+        commands = collected(reader)
+        states.clear()
+        wait_until(is_passing)

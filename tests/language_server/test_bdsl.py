@@ -354,3 +354,20 @@ async def test_quick_fix_and_diagnostics_of_bdsl(rover: Editor) -> None:
     actions = [action for action in found or () if isinstance(action, lsp.CodeAction)]
     changes = [action.edit.changes for action in actions if action.edit and action.edit.changes]
     assert any(edited(list(edits[uri]), text) == ROVER for edits in changes)
+
+
+async def test_code_lens_generates_bridge(rover: Editor) -> None:
+    text = """Bridge doubled
+{
+    input left : double over yarp at "/left:o";
+    output twice : double over yarp at "/twice:i" = left * 2;
+};
+"""
+    rover.write("doubled.bdsl", text)
+    document = lsp.TextDocumentIdentifier(rover.open("doubled.bdsl", text))
+    (lens,) = await rover.client.text_document_code_lens_async(lsp.CodeLensParams(document)) or ()
+    assert lens.command is not None
+    assert lens.command.title == "generate bridge"
+    params = lsp.ExecuteCommandParams(lens.command.command, list(lens.command.arguments or ()))
+    assert await rover.client.workspace_execute_command_async(params) is True
+    assert (rover.folder / "specificworker.py").is_file()

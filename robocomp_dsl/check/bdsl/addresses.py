@@ -34,13 +34,11 @@ def check_addresses(
         first = sent.setdefault(key, port)
         if first is not port and _same_receiver(first, port):
             _report_shared(port, first, context)
-    served: dict[tuple[str, str, str], BridgePort] = {}
+    served: dict[tuple[str, str], BridgePort] = {}
     for port in services:
-        if port.address:
-            operation = "" if port.is_own else port.operation.name
-            first = served.setdefault((*_key(port), operation), port)
-            if first is not port:
-                _report_served_twice(port, first, context)
+        first = served.setdefault(_key(port), port) if port.address else port
+        if first is not port:
+            _report_served_twice(port, first, context)
 
 
 def _names_topic(port: BridgePort, context: BridgeContext) -> bool:

@@ -105,7 +105,16 @@ def _stamp_path(
     fields = tuple(part for part in resolved.parts if isinstance(part, Field))
     is_time = isinstance(resolved.type, Struct) and resolved.type.name == "Time"
     is_number = resolved.type in NUMBERS and bool(nanoseconds_of(resolved.unit))
-    if (is_time or is_number) and len(fields) == len(resolved.parts):
+    is_field = bool(fields) and len(fields) == len(resolved.parts)
+    if not is_field or len(port.operation.inputs) > 1:
+        context.report.add(
+            value_codes.TIME_TYPE,
+            path.span,
+            f"`stamp {path.text}` needs a message with fields, as the only parameter",
+            help="leave out `stamp`, and use the value in the output",
+        )
+        return ()
+    if is_time or is_number:
         return fields
     context.report.add(
         value_codes.TIME_TYPE,

@@ -20,6 +20,7 @@ from robocomp_dsl.check.ddsl.qos import qos_of
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.diagnostics import Code
 from robocomp_dsl.model.bridge_ports import BridgePort
+from robocomp_dsl.model.component import Role
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast import bdsl as ast
@@ -171,6 +172,11 @@ def _address_problem(port: BridgePort, description: MiddlewareDescription) -> st
     if not port.address:
         return "the address is empty"
     if not description.capabilities.external_peers:
+        if port.role in (Role.PUBLISHES, Role.IMPLEMENTS):
+            return (
+                f"over `{description.name}` other components look for `{port.name}`: remove `at`,"
+                " and connect them to this bridge"
+            )
         if _COMPONENT.fullmatch(port.address):
             return ""
         return (

@@ -24,6 +24,7 @@ from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.bridge import Bridge
+from robocomp_dsl.model.component import Role
 from robocomp_dsl.syntax.ast import bdsl as ast
 
 _Declaration: TypeAlias = ast.Input | ast.Function | ast.Hub | ast.Output | ast.Service
@@ -72,7 +73,7 @@ def resolve_bdsl(
     check_addresses(
         [source.port for source in inputs],
         [output.port for output in bridge.outputs],
-        [service.port for service in bridge.services],
+        [port for port in bridge.ports if port.role is Role.IMPLEMENTS],
         context,
     )
     if context.is_complete:

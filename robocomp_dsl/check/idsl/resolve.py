@@ -6,6 +6,7 @@ out; declarations that depend on them are left out without a further diagnostic.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -106,7 +107,9 @@ class _Resolver:
             case ast.Struct():
                 units = ROS_UNITS.get(tree.ros_name, {})
                 fields = self._fields(tree.fields, tree.constants, units)
-                return types.Struct(*head, fields, self._constants(tree.constants), tree.ros_name)
+                constants = self._constants(tree.constants)
+                text = _ros_definition(tree)
+                return types.Struct(*head, fields, constants, tree.ros_name, text)
             case ast.ExceptionDecl():
                 return types.ExceptionType(*head, self._fields(tree.fields))
             case ast.Enum():
@@ -291,3 +294,15 @@ class _Resolver:
             notes=[Note(node.span, f"`{node.text}` is used here") for node in uses if node],
             help="remove one `extends`" if is_interface else advice,
         )
+
+
+def _ros_definition(tree: ast.Struct) -> str:
+    """The statements of a ROS definition, if its md5 does not follow from its fields.
+
+    A `#` in a constant of type string belongs to its value.
+    """
+    lines = [line.strip() for line in tree.span.text.splitlines()] if tree.ros_name else []
+    texts = [x if re.match(r"string\s+\w+\s*=", x) else x.split("#")[0].strip() for x in lines]
+    statements = [text for text in texts if text and not text.startswith("---")]
+    needs_text = tree.constants or any(text.startswith("char") for text in statements)
+    return "\n".join(statements) if needs_text else ""

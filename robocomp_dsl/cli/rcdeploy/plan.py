@@ -105,7 +105,8 @@ def _process(process: Process) -> dict[str, Any]:
 def as_text(plan: Plan) -> Iterator[str]:
     """The plan as text with shell commands."""
     over = f" over {', '.join(plan.middlewares)}" if plan.middlewares else ""
-    yield f"{plan.name}: {len(plan.processes)} components{over}"
+    count = len(plan.processes)
+    yield f"{plan.name}: {count} component{'s' * (count != 1)}{over}"
     yield f"domain {plan.domain}"
     yield f"clock {plan.clock}"
     for wave, names in enumerate(batches({p.name: set(p.after) for p in plan.processes}), start=1):

@@ -11,13 +11,13 @@ from collections.abc import Iterator
 from robocomp_dsl.generate.bridge.bridge_names import BridgeNames
 from robocomp_dsl.generate.bridge.built_values import BuiltLines, value_lines
 from robocomp_dsl.generate.bridge.expressions import ExpressionPrinter
-from robocomp_dsl.generate.bridge.mapping_parts import (
+from robocomp_dsl.generate.bridge.places import place
+from robocomp_dsl.generate.bridge.received_messages import (
     CONTEXT,
     MappingFunction,
     annotation_of,
     input_locals,
 )
-from robocomp_dsl.generate.bridge.places import place
 from robocomp_dsl.generate.literals import quoted
 from robocomp_dsl.generate.names import unique
 from robocomp_dsl.model.bridge_actions import ActionCommand, BridgeAction, Condition

@@ -22,7 +22,7 @@ from robocomp_dsl.model.types import Enum, Field, Primitive, Sequence, Struct, T
 from robocomp_dsl.record import ValueRecord
 
 FOLDER = "python/bridge/"
-MAX_RATE_HZ = 1000
+MAX_RATE_HZ = 10_000
 STATUS_RATE_HZ = 5.0
 """How often an action publishes the status of its goals."""
 
@@ -137,20 +137,25 @@ def _parameter_groups(bridge: Bridge) -> Iterator[tuple[str, str, list[tuple[str
     for output in bridge.outputs:
         about = f"The output `{output.name}`."
         comment = "Messages per second; 0: a message whenever its inputs are complete."
-        line = f"rate float {output.rate_hz or 0:g} [Hz] 0:{MAX_RATE_HZ} live;"
+        line = f"rate float {_number(output.rate_hz or 0)} [Hz] 0:{MAX_RATE_HZ} live;"
         yield output.name, about, [(comment, line)]
     for hub in bridge.hubs:
         members = [
             (
                 "Messages that are older are not used; 0: any age.",
-                f"max_age float {hub.max_age_s:g} [s] 0:86400 live;",
+                f"max_age float {_number(hub.max_age_s)} [s] 0: live;",
             )
         ]
         if hub.policy is HubPolicy.SYNCHRONISED:
             comment = "The largest difference of time stamps in one set."
-            line = f"tolerance float {hub.tolerance_s:g} [s] 0:3600 live;"
+            line = f"tolerance float {_number(hub.tolerance_s)} [s] 0: live;"
             members.insert(0, (comment, line))
         yield hub.name, f"The hub `{hub.name}`.", members
+
+
+def _number(value: float) -> str:
+    """The shortest text of a number that reads as the same number."""
+    return str(int(value)) if float(value).is_integer() else repr(float(value))
 
 
 def _extern_line(peer: ForeignPeer) -> str:

@@ -17,25 +17,23 @@ from robocomp_dsl.generate.bridge.bridge_names import (
 )
 from robocomp_dsl.generate.bridge.built_values import BuiltLines, value_lines
 from robocomp_dsl.generate.bridge.expressions import ExpressionPrinter
-from robocomp_dsl.generate.bridge.mapping_parts import (
+from robocomp_dsl.generate.bridge.places import place
+from robocomp_dsl.generate.bridge.received_messages import (
     CONTEXT,
     MappingFunction,
     annotation_of,
+    check_function,
     input_locals,
+    own_checks,
+    stamp_function,
 )
-from robocomp_dsl.generate.bridge.places import place
 from robocomp_dsl.generate.literals import printable, quoted
 from robocomp_dsl.generate.names import unique
 from robocomp_dsl.model.bridge import Bridge, BridgeOutput, BridgeService
-from robocomp_dsl.model.bridge_ports import BridgeInput, LengthCheck
 from robocomp_dsl.model.bridge_values import BridgeHub, Expression, ListExpression
 from robocomp_dsl.model.interface import Operation, Param
-from robocomp_dsl.model.types import Field, Struct, Type
-from robocomp_dsl.model.types import Sequence as SequenceType
-from robocomp_dsl.model.units import parse_unit
+from robocomp_dsl.model.types import Type
 from robocomp_dsl.record import ValueRecord
-
-_NANOSECONDS = 1_000_000_000
 
 
 class MappingCode(ValueRecord):
@@ -75,9 +73,9 @@ def mapping_code(bridge: Bridge, names: BridgeNames) -> MappingCode:
 def _functions(bridge: Bridge, names: BridgeNames) -> Iterator[MappingFunction]:
     for item in bridge.received:
         if own_checks(item):
-            yield _check(item, names)
+            yield check_function(item, names)
         if item.stamp_path:
-            yield _stamp(item, names)
+            yield stamp_function(item, names)
     for hub in bridge.hubs:
         yield _hub(hub, names)
     for output in bridge.outputs:
@@ -86,16 +84,6 @@ def _functions(bridge: Bridge, names: BridgeNames) -> Iterator[MappingFunction]:
         yield _service(service, names)
     for action in bridge.actions:
         yield from action_functions(action, names)
-
-
-def own_checks(item: BridgeInput) -> tuple[LengthCheck, ...]:
-    """The lengths that the bridge declares; a codec checks those of ROS definitions."""
-    return tuple(check for check in item.length_checks if not _is_fixed_array(check))
-
-
-def _is_fixed_array(check: LengthCheck) -> bool:
-    type_ = check.path[-1].type if check.path else None
-    return isinstance(type_, SequenceType) and type_.is_anonymous
 
 
 def _hub(hub: BridgeHub, names: BridgeNames) -> MappingFunction:
@@ -228,49 +216,3 @@ def _results(operation: Operation) -> list[tuple[str, Type]]:
     """The results of a call by name: its result, then its out parameters."""
     outputs = [(p.name, p.type) for p in operation.outputs]
     return [*([("result", operation.result)] if operation.result is not None else []), *outputs]
-
-
-def _check(item: BridgeInput, names: BridgeNames) -> MappingFunction:
-    first = "message" if len(item.parameters) == 1 else "message[0]"
-    lines = []
-    for check in own_checks(item):
-        path = _path(first, item.parameters[0].type, check.path, names)
-        lines.append(f"values.with_length({path}, {check.length}, {check.length})")
-    return MappingFunction(
-        f"check_{item.name}",
-        f"message: {annotation_of(item, names)}",
-        "None",
-        f"Check the lengths of a message of the input `{item.name}` ({place(item.port.span)}).",
-        tuple(lines),
-    )
-
-
-def _stamp(item: BridgeInput, names: BridgeNames) -> MappingFunction:
-    first, path, type_ = "message", item.stamp_path, item.parameters[0].type
-    if len(item.parameters) > 1:
-        index = next(i for i, p in enumerate(item.parameters) if p.name == path[0].name)
-        first, type_ = f"message[{index}]", item.parameters[index].type
-        path = path[1:]
-    text = _path(first, type_, path, names)
-    last = item.stamp_path[-1]
-    if isinstance(last.type, Struct):
-        second, part = (names.field(last.type, f) for f in last.type.fields[:2])
-        result = f"{text}.{second} * {_NANOSECONDS:_} + {text}.{part}"
-    else:
-        factor = float(parse_unit(last.unit or "s").factor) * _NANOSECONDS
-        result = f"values.nanoseconds_of({text}, {factor:_.0f})"
-    return MappingFunction(
-        f"stamp_{item.name}",
-        f"message: {annotation_of(item, names)}",
-        "int",
-        f"The time stamp of a message of the input `{item.name}` [ns] ({place(item.port.span)}).",
-        (f"return {result}",),
-    )
-
-
-def _path(start: str, type_: Type, path: Sequence[Field], names: BridgeNames) -> str:
-    text = start
-    for field in path:
-        text += f".{names.field(type_, field)}"
-        type_ = field.type
-    return text

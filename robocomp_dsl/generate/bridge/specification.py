@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from robocomp_dsl.generate import literals, names
 from robocomp_dsl.generate.bridge.action_code import action_code
 from robocomp_dsl.generate.bridge.bridge_names import BridgeNames
-from robocomp_dsl.generate.bridge.mapping import MappingCode, own_checks
+from robocomp_dsl.generate.bridge.mapping import MappingCode
 from robocomp_dsl.generate.bridge.methods import (
     BridgeMethod,
     function_method,
@@ -19,6 +19,7 @@ from robocomp_dsl.generate.bridge.methods import (
     service_method,
 )
 from robocomp_dsl.generate.bridge.places import place, places_text, tuple_text
+from robocomp_dsl.generate.bridge.received_messages import own_checks
 from robocomp_dsl.generate.bridge.wiring import BridgeWiring
 from robocomp_dsl.generate.literals import python_value, quoted
 from robocomp_dsl.generate.python.layout import INNER

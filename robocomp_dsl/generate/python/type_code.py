@@ -77,6 +77,7 @@ class TypeCode(ValueRecord):
     comments: tuple[str, ...] = ()
     is_hidden: bool = False
     type_id: str = ""
+    definition: str = ""
     rename: str = ""
     constants: tuple[ConstantCode, ...] = ()
     fields: tuple[FieldCode, ...] = ()
@@ -130,10 +131,17 @@ def _struct(
         literals.docstring(struct.doc, INNER, f"{struct.qualified}."),
         is_hidden=is_hidden,
         type_id=literals.quoted(struct.type_id),
+        definition=_definition(struct),
         rename=f"{{{', '.join(renamed)}}}" if renamed else "",
         constants=tuple(_constants(struct, attributes)),
         fields=tuple(_field(attribute, field, struct, types) for attribute, field in pairs),
     )
+
+
+def _definition(struct: Struct | ExceptionType) -> str:
+    """The text of a ROS definition as a literal; "" if the fields say everything."""
+    text = struct.definition if isinstance(struct, Struct) else ""
+    return literals.python_string(text) if text else ""
 
 
 def _constants(struct: Struct | ExceptionType, attributes: Iterable[str]) -> Iterator[ConstantCode]:

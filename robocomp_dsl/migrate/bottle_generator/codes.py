@@ -1,4 +1,4 @@
-"""RC980, RC99x: the findings of a configuration of yarp-bottle-generator.
+"""RC970, RC980, RC99x: the findings of a configuration of yarp-bottle-generator.
 
 An error: the original does something else than the file says, or cannot build its program. A
 warning: the file is unusual, but has one meaning only.
@@ -9,7 +9,7 @@ from __future__ import annotations
 from robocomp_dsl.diagnostics import Code, Severity
 
 INVALID_LINE = Code(
-    "RC991",
+    "RC970",
     Severity.ERROR,
     "invalid line in a configuration of yarp-bottle-generator",
     """\

@@ -97,11 +97,6 @@ class _Decoder(Emitter):
         else:
             self.line(f"return {values[0] if values else None}")
 
-    def pad_empty(self) -> None:
-        """A struct without fields."""
-        if self.wire.pads_empty:
-            self.run.append(("x", ""))
-
     def line(self, text: str) -> None:
         """Append a line, after the numbers that it may need."""
         if self.run:
@@ -247,14 +242,12 @@ class _Decoder(Emitter):
     def struct_array(self, type_: Any) -> str:
         """A structured array: a view of the message if wire and memory layout are the same."""
         layout = row_layout(type_._element_)
-        if not self.wire.aligned:
-            packed = packed_layout(type_._element_)
-            name = self.block(packed.dtype, packed.stride, 1)
+        packed = layout if self.wire.aligned else packed_layout(type_._element_)
+        if packed.direct:
+            name = self.block(packed.dtype, packed.stride, packed.alignment)
             if packed.dtype != layout.dtype:
                 self.line(f"{name} = {name}.astype({self.constant(layout.dtype)})")
                 self.line(f"{name}.flags.writeable = False")
-        elif layout.direct:
-            name = self.block(layout.dtype, layout.stride, layout.alignment)
         else:
             count, name = self.number("I"), self.name("a")
             self.start()

@@ -60,6 +60,11 @@ class Emitter(SourceWriter):
         """Emit the numbers in `run`."""
         raise NotImplementedError
 
+    def pad_empty(self) -> None:
+        """A struct without fields."""
+        if self.wire.pads_empty:
+            self.run.append(("x", ""))
+
     def take_run(self) -> tuple[Callable[[Callable[..., Any]], str], int | None]:
         """End the run: the expression for its `Struct` method, and the position.
 

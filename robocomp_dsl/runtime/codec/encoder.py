@@ -102,11 +102,6 @@ class _Encoder(Emitter):
         else:
             self.line(f"return join(({''.join(f'{part}, ' for part in self.parts)}))")
 
-    def pad_empty(self) -> None:
-        """A struct without fields."""
-        if self.wire.pads_empty:
-            self.run.append(("x", ""))
-
     def flush(self) -> None:
         """Emit one `pack` for the pending numbers."""
         if not self.run:
@@ -177,15 +172,12 @@ class _Encoder(Emitter):
         if not type_._fields_:
             self.pad_empty()
             return
-        if self.wire.inserts_seq(type_) and not (self.omits_seq and self.is_first()):
+        is_first = self.at == 0 and not (self.run or self.parts)
+        if self.wire.inserts_seq(type_) and not (self.omits_seq and is_first):
             self.run.append(("I", "0"))
         name = self.assigned("v", expression)
         for attribute, (_, inner) in zip(type_._names_, type_._fields_, strict=True):
             self.value(inner, f"{name}.{attribute}")
-
-    def is_first(self) -> bool:
-        """Whether nothing is before this value."""
-        return self.at == 0 and not (self.run or self.parts)
 
     def array(self, type_: Array, expression: str) -> None:
         """A numpy array; its memory is a piece of the message."""
@@ -228,16 +220,12 @@ class _Encoder(Emitter):
         )
         if check := checker(layout):
             self.line(f"{self.constant(check)}({name})")
-        if not self.wire.aligned:
-            packed = packed_layout(type_._element_)
-            if packed.dtype != layout.dtype:
-                self.line(f"{name} = {name}.astype({self.constant(packed.dtype)})")
+        packed = layout if self.wire.aligned else packed_layout(type_._element_)
+        if packed.dtype != layout.dtype:
+            self.line(f"{name} = {name}.astype({self.constant(packed.dtype)})")
+        if packed.direct:
             self.line(f"if {name}.strides != ({packed.stride},): {name} = {name}.copy()")
-            self.block(name, packed.stride, 1)
-            return
-        if layout.direct:
-            self.line(f"if {name}.strides != ({layout.stride},): {name} = {name}.copy()")
-            self.block(name, layout.stride, layout.alignment)
+            self.block(name, packed.stride, packed.alignment)
             return
         self.count(name)
         self.settle()

@@ -52,6 +52,7 @@ class StructMeta(type):
         namespace: dict[str, Any],
         *,
         type_id: str = "",
+        definition: str = "",
         rename: Mapping[str, str] | None = None,
     ) -> StructMeta:
         """A new class. `rename` maps attributes to field names of the IDSL file if they differ."""
@@ -61,6 +62,7 @@ class StructMeta(type):
         names, wire = tuple(annotations), rename or {}
         namespace |= {
             "_type_id_": type_id,
+            "_definition_": definition,
             "_names_": names,
             "_fields_": tuple((wire.get(n, n), schema_of(t)) for n, t in annotations.items()),
             "_defaults_": {n: namespace.pop(n) for n in names if n in namespace},
@@ -104,11 +106,12 @@ class Struct(StructBase, metaclass=StructMeta):
     struct is `rt.default()`. `class Beam(rt.Struct, rename={"None_": "None"})` states the names of
     fields that differ between the IDSL file and Python. `type_id="RoboCompLaser::Beam"` is the name
     of the type in its IDSL file, for middlewares that send names of types; the type hash excludes
-    it.
+    it. `definition` is the text of a ROS definition with constants, which the md5 of ROS 1 covers.
     """
 
     __slots__ = ()
     _type_id_: ClassVar[str] = ""
+    _definition_: ClassVar[str] = ""
     _fields_: ClassVar[Fields] = ()
     _names_: ClassVar[tuple[str, ...]] = ()
     _defaults_: ClassVar[dict[str, Any]] = {}

@@ -285,5 +285,7 @@ def test_settings_are_those_of_ros_by_default() -> None:
     found = read_settings({}, {"ROS_MASTER_URI": "http://robot:11311/", "ROS_IP": "10.0.0.3"})
     assert (found.master, found.host) == ("http://robot:11311", "10.0.0.3")
     assert read_settings({"host": "10.0.0.4"}, {"ROS_HOSTNAME": "robot"}).host == "10.0.0.4"
+    with pytest.raises(MiddlewareError, match="address of this machine"):
+        read_settings({"host": "0.0.0.0"}, {})
     with pytest.raises(MiddlewareError, match="no setting `hots`; known: host, master"):
         read_settings({"hots": "x"}, {})

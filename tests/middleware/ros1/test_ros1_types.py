@@ -127,3 +127,30 @@ float64[3] position [1, 2, 3]  # m
         ("lab_msgs/Own[2]", "own"),
         ("float64[3]", "position"),
     )
+
+
+STATUS = """\
+# a status
+uint8 OK=0   # fine
+uint8 BAD=1
+string NAME=  hello  # not a comment
+char code
+std_msgs/Header header
+float32[3] v
+"""
+DO = "uint8 A=1\nuint8 a\n---\nint32 B=-2\nbool ok\nchar c\n"
+
+
+def test_md5_of_definitions_with_constants_is_that_of_genmsg(tmp_path: Path) -> None:
+    """The expected values were computed by genmsg of Noetic."""
+    package = tmp_path / "lab_msgs"
+    (package / "msg").mkdir(parents=True)
+    (package / "srv").mkdir()
+    (package / "msg" / "Status.msg").write_text(STATUS)
+    (package / "srv" / "Do.srv").write_text(DO)
+    imports = ["lab_msgs/msg/Status.msg", "lab_msgs/srv/Do.srv"]
+    found = ros_types(imports, tmp_path, {})
+    status = message_type(found["lab_msgs/msg/Status"])
+    assert status.md5 == "12e3103a5580b7048c82f4bd04919e70"
+    request, response = (found[f"lab_msgs/srv/Do_{part}"] for part in ("Request", "Response"))
+    assert service_type(request, response).md5 == "ebdb46a7bd1bfeeb417a47e3af210b41"

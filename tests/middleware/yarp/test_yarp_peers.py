@@ -15,6 +15,7 @@ from robocomp_dsl.runtime.errors import NoServer, RemoteError
 from robocomp_dsl.runtime.middleware.yarp.name_client import NameClient, NameServerLost
 from robocomp_dsl.runtime.middleware.yarp.name_server import NameServer
 from robocomp_dsl.runtime.middleware.yarp.outgoing import ask_admin
+from robocomp_dsl.runtime.middleware.yarp.registration import ASK_S
 from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost
 from tests.middleware.yarp.conftest import EVENTS, LOOPBACK, POSE, ROBOT, SCAN, Pose, YarpComponent
 from tests.middleware.yarp.sensor_messages import CAMERA, LEVELS, Image, image_of, pixels_of
@@ -23,7 +24,6 @@ from tests.middleware.yarp.test_yarp_thrift import PATH, PATH_TEXT, check_calls
 from tests.middleware.yarp.test_yarp_transport import HANDLERS
 from tests.middleware.yarp.thrift_types import DEMO, PATHS, DemoHandlers, Path
 from tests.middleware.yarp.yarp_tools import (
-    TIMEOUT_S,
     Tools,
     free_port,
     needs_thrift_peer,
@@ -265,7 +265,7 @@ def test_stamps_and_data_of_yarp(component: Components, names: NameClient, tools
     for port in ("Camera", "Levels"):
         writer = wait_until(lambda port=port: names.query(f"/mirror/{port}:o"))
         wait_until(
-            lambda writer=writer: len(ask_admin(writer, "admin", readers, TIMEOUT_S)),
+            lambda writer=writer: len(ask_admin(writer, "admin", readers, ASK_S)),
             ignoring=ConnectionLost,
         )
     for number, image in enumerate(PROBES):

@@ -96,7 +96,10 @@ def test_thrift_request_may_lack_arguments_with_defaults(
     inputs = {"start": Point, "count": rt.Int, "name": rt.String}
     operation = rt.Operation("go", inputs=inputs, defaults={"count": 5, "name": "x"})
     assert messages.request_decoder(operation, Layout.THRIFT)(read_text(request_)) == arguments
-    with pytest.raises(MalformedMessage, match="has 2 values, but should have: start count name"):
+    with pytest.raises(
+        MalformedMessage,
+        match=r"has 2 values \(float64, float64\), but should have: start Point, count",
+    ):
         messages.request_decoder(operation, Layout.THRIFT)(read_text("0.0 2.0"))
 
 

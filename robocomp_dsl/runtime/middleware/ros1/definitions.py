@@ -1,7 +1,8 @@
 """Finds the definitions of ROS 1 messages.
 
 In: `package/msg/Name`. Out: its constants and fields, from ROS Noetic's messages in the library
-rosbags, else from a `.msg` file in the folders of ROS_PACKAGE_PATH and AMENT_PREFIX_PATH.
+rosbags, else from the generated code, or from a `.msg` file in the folders of ROS_PACKAGE_PATH and
+AMENT_PREFIX_PATH.
 """
 
 from __future__ import annotations
@@ -37,9 +38,15 @@ class Definition:
         return "\n".join([*lines, *(f"{type_} {name}" for type_, name in self.fields)])
 
 
-def find_definition(type_id: str) -> Definition | None:
-    """The definition of `package/msg/Name`; None if there is none."""
-    return _of_noetic(type_id) or _of_file(type_id, os.environ)
+def find_definition(type_id: str, text: str = "") -> Definition | None:
+    """The definition of `package/msg/Name`; None if there is none.
+
+    `text` is that of the generated code, for definitions with constants.
+    """
+    found = _of_noetic(type_id)
+    if found is None and text:
+        return parse_definition(text, type_id.partition("/")[0])
+    return found or _of_file(type_id, os.environ)
 
 
 @cache

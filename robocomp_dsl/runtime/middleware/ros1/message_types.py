@@ -134,7 +134,7 @@ def _definition(struct: type[Any]) -> Definition:
     from_struct = Definition((), tuple((_field(type_), name) for name, type_ in struct._fields_))
     if struct._type_id_ == _HEADER and all(name != "seq" for name, _ in struct._fields_):
         from_struct = Definition((), (("uint32", "seq"), *from_struct.fields))
-    found = find_definition(struct._type_id_)
+    found = find_definition(struct._type_id_, struct._definition_)
     if found is None:
         return from_struct
     if difference := _difference(from_struct, found):

@@ -12,6 +12,7 @@ from robocomp_dsl.runtime.middleware.ros_common.settings import only_known
 MASTER = "http://127.0.0.1:11311"
 HOST = "127.0.0.1"
 _KNOWN = ("host", "master")
+_EVERY = frozenset({"0.0.0.0", "::", "*"})  # noqa: S104 - refused
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,10 +32,13 @@ def read_settings(settings: Mapping[str, str], environment: Mapping[str, str]) -
     """The settings, else the variables of ROS, else the defaults. Raises `MiddlewareError`."""
     only_known("ros1", settings, _KNOWN)
     variables = environment.get("ROS_IP") or environment.get("ROS_HOSTNAME")
-    return Ros1Settings(
-        master=master_uri(settings.get("master", ""), environment),
-        host=settings.get("host") or variables or HOST,
-    )
+    host = settings.get("host") or variables or HOST
+    if host in _EVERY:
+        raise MiddlewareError(
+            f"ros1.host: other nodes cannot connect to {host}; write the address of this machine"
+            " that they reach"
+        )
+    return Ros1Settings(master_uri(settings.get("master", ""), environment), host)
 
 
 def _is_loopback(host: str) -> bool:

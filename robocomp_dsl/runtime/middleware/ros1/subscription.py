@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import threading
+import time
 from collections.abc import Sequence
 from urllib.parse import urlsplit
 
@@ -19,6 +20,7 @@ from robocomp_dsl.runtime.middleware.ros1.xmlrpc import RosApi, RosApiError
 
 CONNECT_S = 2.0
 RETRY_S = 0.5
+CLOSE_S = 0.5
 _TRANSPORT = "TCPROS"
 
 
@@ -102,6 +104,7 @@ class TopicSubscription:
             threads = list(self._threads.values())
             self._changed.notify_all()
         self.receiver.close()
+        deadline = time.monotonic() + CLOSE_S
         for thread in threads:
             if thread is not threading.current_thread():
-                thread.join(0.5)
+                thread.join(max(0.0, deadline - time.monotonic()))
