@@ -7,8 +7,9 @@ template's renderer breaks long ones.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
+from robocomp_dsl.generate.bridge.action_functions import action_functions
 from robocomp_dsl.generate.bridge.bridge_names import (
     BridgeNames,
     array_annotation,
@@ -18,22 +19,21 @@ from robocomp_dsl.generate.bridge.built_values import BuiltLines, value_lines
 from robocomp_dsl.generate.bridge.expressions import ExpressionPrinter
 from robocomp_dsl.generate.bridge.places import place
 from robocomp_dsl.generate.bridge.received_messages import (
+    CONTEXT,
     MappingFunction,
     annotation_of,
     check_function,
+    input_locals,
     own_checks,
     stamp_function,
 )
 from robocomp_dsl.generate.literals import printable, quoted
 from robocomp_dsl.generate.names import unique
 from robocomp_dsl.model.bridge import Bridge, BridgeOutput, BridgeService
-from robocomp_dsl.model.bridge_ports import BridgeInput
 from robocomp_dsl.model.bridge_values import BridgeHub, Expression, ListExpression
 from robocomp_dsl.model.interface import Operation, Param
 from robocomp_dsl.model.types import Type
 from robocomp_dsl.record import ValueRecord
-
-_CONTEXT = ("at: MessageContext", "user: BridgeWorker")
 
 
 class MappingCode(ValueRecord):
@@ -71,7 +71,7 @@ def mapping_code(bridge: Bridge, names: BridgeNames) -> MappingCode:
 
 
 def _functions(bridge: Bridge, names: BridgeNames) -> Iterator[MappingFunction]:
-    for item in bridge.inputs:
+    for item in bridge.received:
         if own_checks(item):
             yield check_function(item, names)
         if item.stamp_path:
@@ -82,24 +82,8 @@ def _functions(bridge: Bridge, names: BridgeNames) -> Iterator[MappingFunction]:
         yield _output(output, names)
     for service in bridge.services:
         yield _service(service, names)
-
-
-def input_locals(
-    inputs: Iterable[BridgeInput], names: BridgeNames
-) -> tuple[dict[tuple[str, str], str], list[str]]:
-    """The local names of the parameters of inputs, and the lines that unpack several of them."""
-    found: dict[tuple[str, str], str] = {}
-    lines = []
-    for item in inputs:
-        variable = names.variables[item.name]
-        parameters = item.parameters
-        if len(parameters) == 1:
-            found[item.name, parameters[0].name] = variable
-            continue
-        parts = [f"{variable}_{parameter.name}" for parameter in parameters]
-        found |= {(item.name, p.name): part for p, part in zip(parameters, parts, strict=True)}
-        lines.append(f"{', '.join(parts)} = {variable}")
-    return found, lines
+    for action in bridge.actions:
+        yield from action_functions(action, names)
 
 
 def _hub(hub: BridgeHub, names: BridgeNames) -> MappingFunction:
@@ -138,7 +122,7 @@ def _output(output: BridgeOutput, names: BridgeNames) -> MappingFunction:
     uses = output.uses
     local_names, unpack = input_locals(uses.inputs, names)
     printer = ExpressionPrinter(names, local_names)
-    parameters = list(_CONTEXT)
+    parameters = list(CONTEXT)
     lines = []
     for item in uses.inputs:
         variable = names.variables[item.name]
@@ -220,7 +204,7 @@ def _service(service: BridgeService, names: BridgeNames) -> MappingFunction:
     several = f"tuple[{', '.join(kinds)}]" if len(kinds) > 1 else "None"
     return MappingFunction(
         f"service_{service.name}",
-        ", ".join((*_CONTEXT, *parameters)),
+        ", ".join((*CONTEXT, *parameters)),
         kinds[0] if len(kinds) == 1 else several,
         f"The reply of the service `{service.name}` ({place(service.port.span)}).",
         tuple(lines) or ("return None",),

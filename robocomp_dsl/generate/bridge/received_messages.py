@@ -5,7 +5,7 @@ In: an input of a bridge and the names. Out: `MappingFunction`s.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from robocomp_dsl.generate.bridge.bridge_names import BridgeNames
 from robocomp_dsl.generate.bridge.places import place
@@ -16,6 +16,10 @@ from robocomp_dsl.model.units import parse_unit
 from robocomp_dsl.record import ValueRecord
 
 _NANOSECONDS = 1_000_000_000
+
+
+CONTEXT = ("at: MessageContext", "user: BridgeWorker")
+"""The first parameters of functions that build messages."""
 
 
 class MappingFunction(ValueRecord):
@@ -37,6 +41,24 @@ def own_checks(item: BridgeInput) -> tuple[LengthCheck, ...]:
 def _is_fixed_array(check: LengthCheck) -> bool:
     type_ = check.path[-1].type if check.path else None
     return isinstance(type_, SequenceType) and type_.is_anonymous
+
+
+def input_locals(
+    inputs: Iterable[BridgeInput], names: BridgeNames
+) -> tuple[dict[tuple[str, str], str], list[str]]:
+    """The local names of the parameters of inputs, and the lines that unpack several of them."""
+    found: dict[tuple[str, str], str] = {}
+    lines = []
+    for item in inputs:
+        variable = names.variables[item.name]
+        parameters = item.parameters
+        if len(parameters) == 1:
+            found[item.name, parameters[0].name] = variable
+            continue
+        parts = [f"{variable}_{parameter.name}" for parameter in parameters]
+        found |= {(item.name, p.name): part for p, part in zip(parameters, parts, strict=True)}
+        lines.append(f"{', '.join(parts)} = {variable}")
+    return found, lines
 
 
 def annotation_of(item: BridgeInput, names: BridgeNames) -> str:
