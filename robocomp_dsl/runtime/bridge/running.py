@@ -14,7 +14,7 @@ from typing import Protocol
 
 from robocomp_dsl.runtime.bridge.actions import STATUS_RATE, BridgedAction
 from robocomp_dsl.runtime.bridge.context import NANOSECONDS, MessageContext
-from robocomp_dsl.runtime.bridge.counts import BridgeCounts, LossReport
+from robocomp_dsl.runtime.bridge.counts import BridgeCounts, LossReport, transport_losses
 from robocomp_dsl.runtime.bridge.hubs import Hub, SynchronisedHub, hub_of
 from robocomp_dsl.runtime.bridge.inputs import BridgedInput
 from robocomp_dsl.runtime.bridge.outputs import BridgedOutput
@@ -44,6 +44,10 @@ class CountedPort(Protocol):
     @property
     def counts(self) -> BridgeCounts:
         """What it counts."""
+
+    @property
+    def spec(self) -> InputSpec | OutputSpec | ServiceSpec:
+        """Its port and operation."""
 
 
 class BridgeHost(Protocol):
@@ -95,6 +99,7 @@ class RunningBridge:
 
     def _losses(self, what: str, spec: InputSpec | OutputSpec | ServiceSpec) -> LossReport:
         operation = self._statistics.of(spec.port, spec.operation)
+        operation.place = spec.place
         return LossReport(f"{what} `{spec.name}`", operation, self._log)
 
     def _input(self, spec: InputSpec, message_stamp: Callable[[], int]) -> BridgedInput:
@@ -191,6 +196,7 @@ class RunningBridge:
         )
         return [
             f"{kind} `{name}`: {port.counts.summary(verb)}"
+            f"{transport_losses(self._statistics.of(port.spec.port, port.spec.operation), port.counts)}"
             for kind, verb, ports in kinds
             for name, port in ports.items()
         ]
