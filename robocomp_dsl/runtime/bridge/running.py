@@ -39,7 +39,7 @@ def _message_stamp_ns() -> int:
 
 
 class CountedPort(Protocol):
-    """An input, output, service or action."""
+    """An input, output or service."""
 
     @property
     def counts(self) -> BridgeCounts:
@@ -187,19 +187,24 @@ class RunningBridge:
                 self.actions[name].tick()
 
     def summary(self) -> list[str]:
-        """The counts of all inputs, outputs and services, a line each."""
+        """The counts of all inputs, outputs, services and actions, a line each."""
         kinds: tuple[tuple[str, str, Mapping[str, CountedPort]], ...] = (
             ("input", "received", self.inputs),
             ("output", "sent", self.outputs),
             ("service", "answered", self.services),
-            ("action", "goals", self.actions),
         )
-        return [
-            f"{kind} `{name}`: {port.counts.summary(verb)}"
-            f"{transport_losses(self._statistics.of(port.spec.port, port.spec.operation), port.counts)}"
+        lines = [
+            f"{kind} `{name}`: {port.counts.summary(verb)}{self._transport_losses(port)}"
             for kind, verb, ports in kinds
             for name, port in ports.items()
         ]
+        for name, action in self.actions.items():
+            lines.append(f"action `{name}`: {action.counts.summary('goals')}")
+        return lines
+
+    def _transport_losses(self, port: CountedPort) -> str:
+        operation = self._statistics.of(port.spec.port, port.spec.operation)
+        return transport_losses(operation, port.counts)
 
     def log_summary(self) -> None:
         """Log the counts."""

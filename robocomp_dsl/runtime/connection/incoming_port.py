@@ -171,9 +171,7 @@ class IncomingOperation:
             counts.malformed += 1
             if self._throttle.allows("malformed"):
                 so_far = f"; {counts.malformed} so far" if counts.malformed > 1 else ""
-                log.warning(
-                    "rejected a message for %s: %s%s%s", what, error, counts.suffix, so_far
-                )
+                log.warning("rejected a message for %s: %s%s%s", what, error, counts.suffix, so_far)
 
 
 class IncomingPort:
