@@ -14,7 +14,7 @@ from typing import Protocol
 
 from robocomp_dsl.runtime.bridge.actions import STATUS_RATE, BridgedAction
 from robocomp_dsl.runtime.bridge.context import NANOSECONDS, MessageContext
-from robocomp_dsl.runtime.bridge.counts import BridgeCounts, LossReport
+from robocomp_dsl.runtime.bridge.counts import BridgeCounts, LossReport, transport_losses
 from robocomp_dsl.runtime.bridge.hubs import Hub, SynchronisedHub, hub_of
 from robocomp_dsl.runtime.bridge.inputs import BridgedInput
 from robocomp_dsl.runtime.bridge.outputs import BridgedOutput
@@ -39,11 +39,15 @@ def _message_stamp_ns() -> int:
 
 
 class CountedPort(Protocol):
-    """An input, output, service or action."""
+    """An input, output or service."""
 
     @property
     def counts(self) -> BridgeCounts:
         """What it counts."""
+
+    @property
+    def spec(self) -> InputSpec | OutputSpec | ServiceSpec:
+        """Its port and operation."""
 
 
 class BridgeHost(Protocol):
@@ -95,6 +99,7 @@ class RunningBridge:
 
     def _losses(self, what: str, spec: InputSpec | OutputSpec | ServiceSpec) -> LossReport:
         operation = self._statistics.of(spec.port, spec.operation)
+        operation.place = spec.place
         return LossReport(f"{what} `{spec.name}`", operation, self._log)
 
     def _input(self, spec: InputSpec, message_stamp: Callable[[], int]) -> BridgedInput:
@@ -182,18 +187,24 @@ class RunningBridge:
                 self.actions[name].tick()
 
     def summary(self) -> list[str]:
-        """The counts of all inputs, outputs and services, a line each."""
+        """The counts of all inputs, outputs, services and actions, a line each."""
         kinds: tuple[tuple[str, str, Mapping[str, CountedPort]], ...] = (
             ("input", "received", self.inputs),
             ("output", "sent", self.outputs),
             ("service", "answered", self.services),
-            ("action", "goals", self.actions),
         )
-        return [
-            f"{kind} `{name}`: {port.counts.summary(verb)}"
+        lines = [
+            f"{kind} `{name}`: {port.counts.summary(verb)}{self._transport_losses(port)}"
             for kind, verb, ports in kinds
             for name, port in ports.items()
         ]
+        for name, action in self.actions.items():
+            lines.append(f"action `{name}`: {action.counts.summary('goals')}")
+        return lines
+
+    def _transport_losses(self, port: CountedPort) -> str:
+        operation = self._statistics.of(port.spec.port, port.spec.operation)
+        return transport_losses(operation, port.counts)
 
     def log_summary(self) -> None:
         """Log the counts."""

@@ -64,6 +64,11 @@ class OutputSpec:
     places: Mapping[str, str] = field(default_factory=dict)
     rate: float = 0.0
 
+    @property
+    def place(self) -> str:
+        """The place of the output."""
+        return self.places.get("", "")
+
 
 @dataclass(frozen=True, slots=True)
 class ServiceSpec:
@@ -77,6 +82,11 @@ class ServiceSpec:
     operation: str
     answer: Callable[..., Any]
     places: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def place(self) -> str:
+        """The place of the service."""
+        return self.places.get("", "")
 
 
 @dataclass(frozen=True, slots=True)

@@ -64,6 +64,7 @@ class SubscriberLink:
         self._bytes = 0
         self._is_sending = False
         self._stalled = False
+        self._drops = 0
         self._closed = False
         self._thread = threading.Thread(target=self._run, name=f"ros1 to {peer}", daemon=True)
 
@@ -123,6 +124,12 @@ class SubscriberLink:
             while len(self._queue) > self._is_sending and not self._fits(size):
                 self._pop(int(self._is_sending))
                 counts.drops += 1
+                self._drops += 1
+            if self._throttle.allows("slow"):
+                log.warning(
+                    "the subscriber %s does not take the messages in time; it has lost %d%s",
+                    *(self.peer, self._drops, counts.suffix),
+                )
             return True
         if not self._stalled:
             fits = self._changed.wait_for
@@ -133,10 +140,11 @@ class SubscriberLink:
             if self._throttle.allows("held"):
                 log.warning(
                     "%s receives nothing and held a publication for %g ms; until it does, it"
-                    " loses messages",
-                    *(self.peer, bounded_queue.HOLD_S * 1000),
+                    " loses messages%s",
+                    *(self.peer, bounded_queue.HOLD_S * 1000, counts.suffix),
                 )
         counts.drops += 1
+        self._drops += 1
         return False
 
     def _fits(self, size: int) -> bool:

@@ -60,7 +60,10 @@ class Incoming:
         except ConnectionLost:
             pass
         except MalformedMessage as error:
-            self._port.report_malformed(self.sender, error)
+            if self.carrier:
+                self._port.malformed(self.sender, error, "D")
+            else:
+                self._port.report_malformed(self.sender, error)
         finally:
             self._stream.close()
 

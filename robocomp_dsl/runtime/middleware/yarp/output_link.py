@@ -63,6 +63,8 @@ class OutputLink:
         self._drops = 0
         self._is_sending = False
         self._stalled = False
+        self._is_absent = False
+        self._absent_drops = 0
         self._closed = False
         self._thread = threading.Thread(target=self._run, name=f"yarp {sender} output", daemon=True)
 
@@ -81,6 +83,9 @@ class OutputLink:
         carrier = self.address.carrier
         with self._changed:
             if self._closed:
+                return
+            if self._is_absent:
+                self._drop(counts)
                 return
             if not self._messages and not self._is_sending and carrier == "fast_tcp":
                 sent = self._send_now(message.parts)
@@ -129,8 +134,8 @@ class OutputLink:
                 self._drop(self._remove(int(self._is_sending)))
             if self._throttle.allows("slow"):
                 log.warning(
-                    "%s: %s does not take the messages in time; it has lost %d",
-                    *(self._sender, self.address.name, self._drops),
+                    "%s: %s does not take the messages in time; it has lost %d%s",
+                    *(self._sender, self.address.name, self._drops, counts.suffix),
                 )
             return True
         if not self._stalled:
@@ -143,8 +148,8 @@ class OutputLink:
             if self._throttle.allows("held"):
                 log.warning(
                     "%s receives nothing and held a publication for %g ms; until it does, it"
-                    " loses messages",
-                    *(self.address.name, bounded_queue.HOLD_S * 1000),
+                    " loses messages%s",
+                    *(self.address.name, bounded_queue.HOLD_S * 1000, counts.suffix),
                 )
         self._drop(counts)
         return False
@@ -179,6 +184,13 @@ class OutputLink:
             else:
                 with self._changed:
                     self._stream = stream
+                    was_absent, self._is_absent = self._is_absent, False
+                    lost = self._drops - self._absent_drops
+                if was_absent:
+                    log.info(
+                        "%s is connected to %s; messages lost meanwhile: %d",
+                        *(self._sender, self.address.name, lost),
+                    )
                 return True
         return False
 
@@ -190,15 +202,27 @@ class OutputLink:
                 # Perhaps a rest, which a new connection cannot take.
                 self._drop(self._remove(0))
             self._is_sending = False
+            ends = self._closed or self._on_end is not None
+            suffix = "" if ends or self._reliable else self._lose_messages()
         if stream:
             stream.close()
-        if self._closed or self._on_end:
+        if ends:
             if self._on_end:
                 self._on_end(self)
             return True
         if self._throttle.allows("lost"):
-            log.warning("%s: no connection to %s: %s", self._sender, self.address, reason)
+            log.warning("%s: no connection to %s: %s%s", self._sender, self.address, reason, suffix)
         return False
+
+    def _lose_messages(self) -> str:
+        """Drop all messages until there is a connection again: a reader that comes back would get
+        commands that are long out of date. Returns what to add to the warning."""
+        if not self._is_absent:
+            self._is_absent = True
+            self._absent_drops = self._drops
+        while self._messages:
+            self._drop(self._remove(0))
+        return "; until there is one, messages are lost"
 
     def _send_messages(self) -> bool:
         """Send what arrives; returns whether the link was closed. Raises `ConnectionLost`."""
