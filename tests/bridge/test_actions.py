@@ -7,13 +7,16 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
+from robocomp_dsl.runtime.bridge.context import MessageContext
 from robocomp_dsl.runtime.bridge.running import RunningBridge
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.errors import NoServer
 from robocomp_dsl.runtime.middleware.ros1.message_types import message_type
-from tests.bridge.bridge_run import load_worker
+from tests.bridge.bridge_run import generate, load_worker
 from tests.bridge.lift_bridge import BRIDGE, generate_lift
 from tests.bridge.test_running_bridge import Host
 from tests.cli.rcgen_run import Rcgen
@@ -175,3 +178,70 @@ def test_message_type_of_action_is_that_of_genaction(lift: LiftBridge) -> None:
         "TestActionResult": ("actionlib/TestActionResult", "3d669e3a63aa986c667ea7b0f46ce85e"),
         "TestActionFeedback": ("actionlib/TestActionFeedback", "6d3d0bf7fb3dda24779c010a9f3eb7cb"),
     }
+
+
+GRASP = """# Closes the hand.
+uint8 SLOW=1
+float64 width
+my_msgs/Finger[] fingers
+ --- # the result
+bool reached
+---
+float64 width
+time at
+"""
+HAND = """
+import "my_msgs/action/Grasp.action";
+
+Bridge hands
+{
+    action grasp : my_msgs::Grasp over ros1 at "/grasp"
+    {
+        command close : (double width) over yarp at "/hand:i" { width = goal.width; };
+        state hand : (double width [mm], double[] angles [deg]) over yarp at "/hand:o";
+        state arm : (string name) over yarp at "/arm:o";
+        feedback.at = now;
+        succeed when hand.width < 0.02 [m] and arm.name != "";
+        succeed when hand.angles[0] - hand.angles[1] >= 90;
+    };
+};
+"""
+
+
+def test_message_type_of_own_action_with_constants(rcgen: Rcgen, tmp_path: Path) -> None:
+    package = tmp_path / "my_msgs"
+    for folder, name, text in (("action", "Grasp.action", GRASP), ("msg", "Finger.msg", "int8 n")):
+        (package / folder).mkdir(parents=True)
+        (package / folder / name).write_text(text)
+    load_worker(generate(rcgen, tmp_path, HAND))
+    types = sys.modules["hands_generated.interfaces"]
+    goal, result, feedback = GRASP.replace(" # the result", "").split("---")
+    store = get_typestore(Stores.ROS1_NOETIC)
+    texts = {"Finger": "int8 n"}
+    for part, text in (("Goal", goal), ("Result", result), ("Feedback", feedback)):
+        kind = "GoalID goal_id" if part == "Goal" else "GoalStatus status"
+        texts[f"Grasp{part}"] = text
+        texts[f"GraspAction{part}"] = (
+            f"Header header\nactionlib_msgs/{kind}\nGrasp{part} {part.lower()}"
+        )
+    for name, text in texts.items():
+        store.register(get_types_from_msg(text, f"my_msgs/msg/{name}"))
+    for name in texts:
+        expected = store.generate_msgdef(f"my_msgs/msg/{name}", ros_version=1)[1]
+        assert (name, message_type(getattr(types, name)).md5) == (name, expected)
+
+
+def test_action_functions_convert_units_and_compare(rcgen: Rcgen, tmp_path: Path) -> None:
+    package = tmp_path / "my_msgs" / "action"
+    package.mkdir(parents=True)
+    (package / "Grasp.action").write_text(GRASP.replace("my_msgs/Finger[] fingers\n", ""))
+    load_worker(generate(rcgen, tmp_path, HAND))
+    mapping = sys.modules["hands_generated.mapping"]
+    types = sys.modules["hands_generated.interfaces"]
+    at = MessageContext(lambda _: 0)
+    hand = types.Hand(width=19.0, angles=np.array([180.0, 91.0]))
+    assert mapping.action_grasp_succeeds(at, None, None, hand, types.Arm(name="a"))
+    assert not mapping.action_grasp_succeeds(at, None, None, hand, types.Arm(name=""))
+    hand.angles = np.array([181.0, 91.0])
+    assert mapping.action_grasp_succeeds(at, None, None, hand, types.Arm(name=""))
+    assert at.field == "succeed when (2)"

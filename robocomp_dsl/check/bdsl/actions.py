@@ -29,13 +29,14 @@ from robocomp_dsl.syntax.ast.base import Name, Text
 
 LONGEST_S = 24 * 60 * 60.0
 _PARTS = ("feedback", "result")
+_TOPICS = 5
 
 
 def resolve_action(tree: ast.Action, context: BridgeContext) -> BridgeAction | None:
     """An action; None if it is faulty."""
-    is_valid = _check_place(tree, context) and _check_parts(tree, context)
+    is_placed, is_complete = _check_place(tree, context), _check_parts(tree, context)
     types = action_types(tree.type, context)
-    if types is None or not is_valid:
+    if types is None or not is_placed:
         return None
     topics = _Topics(tree, types, context)
     states: dict[str, BridgeInput | None] = {}
@@ -54,6 +55,8 @@ def resolve_action(tree: ast.Action, context: BridgeContext) -> BridgeAction | N
     parts: list[object] = [*commands, *states.values(), *succeed, *abort, *topics.ports]
     count = len(tree.commands) + len(tree.states)
     if values is None or None in parts or len(commands) + len(states) != count:
+        return None
+    if not is_complete or len(topics.ports) != _TOPICS:
         return None
     goal_port, cancel_port, status, feedback, result = topics.ports
     return BridgeAction(
@@ -126,8 +129,8 @@ def _check_place(tree: ast.Action, context: BridgeContext) -> bool:
             codes.ACTION_TYPE,
             tree.place.middleware.span if tree.place.middleware else tree.name.span,
             f"a bridge has no actions over `{name}`",
-            help=f"{able} carries actions; over `{name}`, join the goal as an `input` or `service` "
-            "and the state as an `output`",
+            help=f"only {able} carries actions; over `{name}`, receive the goal as an `input` or "
+            "`service`, and send the state as an `output`",
         )
         return False
     if tree.place.address is not None:

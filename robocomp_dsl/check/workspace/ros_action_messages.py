@@ -18,7 +18,7 @@ PARTS = ("Goal", "Result", "Feedback")
 _MESSAGE = re.compile(
     r"(?P<package>\w+)/msg/(?P<action>\w+?)(?P<wraps>Action)?(?P<part>Goal|Result|Feedback)\.msg"
 )
-_SEPARATOR = re.compile(r"^---[ \t]*(?:#.*)?$", re.MULTILINE)
+_SEPARATOR = re.compile(r"^[ \t]*---[ \t]*(?:#.*)?$", re.MULTILINE)
 
 
 def action_message(
