@@ -16,7 +16,6 @@ from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import InterfaceMismatch, MalformedMessage, NoServer, Timeout
-from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.addresses import parse_address
 from robocomp_dsl.runtime.middleware.ros1.failures import decode_failure
 from robocomp_dsl.runtime.middleware.ros1.handshake import Refused, exchange_headers
@@ -25,9 +24,10 @@ from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Service, service
 from robocomp_dsl.runtime.middleware.ros1.port_receiver import INDEX, frame, port_header
 from robocomp_dsl.runtime.middleware.ros1.publication import Publication
 from robocomp_dsl.runtime.middleware.ros1.service import read_reply
-from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, PeerLost, TcprosStream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, TcprosStream
 from robocomp_dsl.runtime.middleware.ros1.xmlrpc import RosApi, RosApiError
 from robocomp_dsl.runtime.middleware.ros_common.interface_types import is_topic
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
@@ -80,7 +80,7 @@ class Ros1Client:
                 stream.send(LENGTH.pack(len(prefix) + len(data)) + prefix, data)
                 counts.bytes_out += len(data)
                 is_ok, reply = read_reply(stream)
-            except PeerLost as error:
+            except ConnectionLost as error:
                 self._drop(stream)
                 raise self._failure(error, what, timeout) from None
             except MalformedMessage as error:
@@ -131,8 +131,8 @@ class Ros1Client:
             host, number = self._look_up(header["service"], timeout)
         left = max(0.001, deadline - time.monotonic())
         try:
-            stream = tcpros.connect(host, number, left)
-        except PeerLost as error:
+            stream = TcprosStream.connect((host, number), left)
+        except ConnectionLost as error:
             if self._is_external and not error.timed_out:
                 raise NoServer(
                     f"{self._at.port}: the ROS service {header['service']} at {host}:{number}"
@@ -146,7 +146,7 @@ class Ros1Client:
         except Refused as error:
             self._drop(stream)
             raise InterfaceMismatch(f"{self._at.port}: {what}: {error}") from None
-        except PeerLost as error:
+        except ConnectionLost as error:
             self._drop(stream)
             raise self._failure(error, what, timeout) from None
         if self._cancelled:
@@ -196,8 +196,8 @@ class Ros1Client:
                     stream = self._open(header, what, deadline, timeout)
                 stream.deadline = deadline
                 try:
-                    stream.send(*frame(index, publication.counter(), data))
-                except PeerLost as error:
+                    stream.send(*frame(index, publication.counter(), data).parts)
+                except ConnectionLost as error:
                     self._drop(stream)
                     raise self._failure(error, what, timeout) from None
                 self._command_stream = stream
@@ -226,7 +226,7 @@ class Ros1Client:
 
         return command
 
-    def _failure(self, error: PeerLost, what: str, timeout: float) -> Exception:
+    def _failure(self, error: ConnectionLost, what: str, timeout: float) -> Exception:
         if self._cancelled:
             return ServerLost(self._server.name)
         if error.timed_out:

@@ -16,7 +16,8 @@ from robocomp_dsl.runtime.errors import MalformedMessage
 from robocomp_dsl.runtime.middleware.ros1.handshake import refusal
 from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Topic, topic_of
 from robocomp_dsl.runtime.middleware.ros1.subscriber_link import link_numbers
-from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import TcprosStream
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 
 log = logging.getLogger("robocomp")
 
@@ -73,11 +74,11 @@ class TopicReceiver:
         return refusal(self.topic.name, self.topic.type, header, "publishes")
 
     def receive(self, stream: TcprosStream, peer: str) -> None:
-        """Receive until the connection ends, which raises `PeerLost`."""
+        """Receive until the connection ends, which raises `ConnectionLost`."""
         connection = IncomingLink(stream, peer)
         with self._lock:
             if self._closed:
-                raise PeerLost("the port was closed")
+                raise ConnectionLost("the port was closed")
             self._connections += (connection,)
         try:
             self._receive(connection)
@@ -93,7 +94,7 @@ class TopicReceiver:
                 data = frame()
             except MalformedMessage as error:
                 self._malformed(connection.peer, error)
-                raise PeerLost(str(error)) from None
+                raise ConnectionLost(str(error)) from None
             connection.messages_in += 1
             self.handle(data, connection.peer)
 

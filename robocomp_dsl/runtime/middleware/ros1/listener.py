@@ -17,7 +17,8 @@ from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.component.user_errors import describe_error
 from robocomp_dsl.runtime.errors import MalformedMessage, MiddlewareError
 from robocomp_dsl.runtime.middleware.ros1.handshake import refuse
-from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream, failure_reason
+from robocomp_dsl.runtime.middleware.ros1.tcpros import TcprosStream
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost, failure_reason
 
 MAX_CONNECTIONS = 2048
 """Connections of one node at a time; further ones are closed at once."""
@@ -73,7 +74,7 @@ class TcprosListener:
         is_taken = False
         try:
             is_taken = self._handle(stream)
-        except PeerLost:
+        except ConnectionLost:
             pass
         except MalformedMessage as error:
             self.report("malformed", f"a peer sent an invalid header: {error}")

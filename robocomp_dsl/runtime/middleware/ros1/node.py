@@ -196,8 +196,8 @@ class RosNode:
         published: list[Any] = []
         for name, publication in list(self._publications.items()):
             links = publication.links
-            rows = [[n.number, n.bytes_out, n.messages_out, n.is_connected] for n in links]
-            published.append([name, sum(link.bytes_out for link in links), rows])
+            rows = [[n.number, n.body_bytes, n.messages_out, n.is_connected] for n in links]
+            published.append([name, sum(link.body_bytes for link in links), rows])
         received = [
             [name, [[c.number, c.stream.bytes_in, c.messages_in, 0, True]]]
             for name, c in self._connections()

@@ -18,7 +18,9 @@ from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.errors import MalformedMessage
 from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.incoming import IncomingLink
-from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import TcprosStream
+from robocomp_dsl.runtime.middleware.tcp.outgoing_link import TcpMessage
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 
 INDEX = struct.Struct("<H")
 PORT_KEY = "port"
@@ -36,10 +38,10 @@ def port_header(node: str, name: str, interface: Interface) -> dict[str, str]:
     }
 
 
-def frame(operation: int, counter: bytes, data: bytes) -> tuple[bytes, bytes]:
+def frame(operation: int, counter: bytes, data: bytes) -> TcpMessage:
     """A message of an operation; `counter` is that of its header, or empty."""
     prefix = INDEX.pack(operation) + counter
-    return tcpros.LENGTH.pack(len(prefix) + len(data)) + prefix, data
+    return TcpMessage(tcpros.LENGTH.pack(len(prefix) + len(data)) + prefix, data)
 
 
 class PortReceiver:
@@ -72,12 +74,12 @@ class PortReceiver:
         )
 
     def accept(self, stream: TcprosStream, header: dict[str, str]) -> None:
-        """Receive until the connection ends, which raises `PeerLost`."""
+        """Receive until the connection ends, which raises `ConnectionLost`."""
         stream.send(tcpros.encode_header(self._header))
         connection = IncomingLink(stream, header.get("callerid", "a component"))
         with self._lock:
             if self._closed:
-                raise PeerLost("the port was closed")
+                raise ConnectionLost("the port was closed")
             self._connections += (connection,)
         try:
             self._receive(connection)
@@ -94,12 +96,12 @@ class PortReceiver:
                 handler = handlers[index]
             except (MalformedMessage, struct.error, KeyError) as error:
                 self._report(connection.peer, error)
-                raise PeerLost(str(error)) from None
+                raise ConnectionLost(str(error)) from None
             connection.messages_in += 1
             reply = handler(data[INDEX.size :], connection.peer)
             if reply is not None:
                 if self._closed:
-                    raise PeerLost("the port was closed")
+                    raise ConnectionLost("the port was closed")
                 stream.send(*reply)
 
     def _report(self, peer: str, error: Exception) -> None:

@@ -22,12 +22,13 @@ from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, NoServer, Timeout
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost
 from robocomp_dsl.runtime.middleware.yarp import outgoing
 from robocomp_dsl.runtime.middleware.yarp.addresses import parse_address
 from robocomp_dsl.runtime.middleware.yarp.description import MAX_MESSAGE_BYTES
 from robocomp_dsl.runtime.middleware.yarp.outgoing import Resolve
-from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost, Stream
+from robocomp_dsl.runtime.middleware.yarp.stream import YarpStream
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 _TEXT = ("text", "text_ack")
@@ -57,9 +58,9 @@ class YarpServiceClient:
         self._timeout = timeout
         self._lock = threading.Lock()
         self._command_lock = threading.Lock()
-        self._idle: list[Stream] = []
-        self._opened: set[Stream] = set()
-        self._command_stream: Stream | None = None
+        self._idle: list[YarpStream] = []
+        self._opened: set[YarpStream] = set()
+        self._command_stream: YarpStream | None = None
         self._cancelled = False
 
     def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
@@ -137,7 +138,7 @@ class YarpServiceClient:
 
         return command
 
-    def _take_stream(self, what: str, deadline: float, timeout: float) -> Stream:
+    def _take_stream(self, what: str, deadline: float, timeout: float) -> YarpStream:
         """An idle connection that is still open, or a new one."""
         while True:
             with self._lock:
@@ -152,7 +153,7 @@ class YarpServiceClient:
             stream.deadline = deadline
             return stream
 
-    def _open(self, what: str, deadline: float, timeout: float) -> Stream:
+    def _open(self, what: str, deadline: float, timeout: float) -> YarpStream:
         if self._cancelled:
             raise ServerLost(self._server.name)
         try:
@@ -174,7 +175,7 @@ class YarpServiceClient:
             raise ServerLost(self._server.name)
         return stream
 
-    def _read_reply(self, stream: Stream) -> tuple[Bottle, int]:
+    def _read_reply(self, stream: YarpStream) -> tuple[Bottle, int]:
         carrier = self._address.carrier
         if carrier in _TEXT:
             continuation = Continuation()
@@ -204,14 +205,14 @@ class YarpServiceClient:
             return Timeout(f"{what} did not reply within {timeout:g} s")
         return ServerLost(f"{self._server.name}: the connection was lost ({error})")
 
-    def _keep(self, stream: Stream) -> None:
+    def _keep(self, stream: YarpStream) -> None:
         with self._lock:
             if not self._cancelled:
                 self._idle.append(stream)
                 return
         self._drop(stream)
 
-    def _drop(self, stream: Stream) -> None:
+    def _drop(self, stream: YarpStream) -> None:
         with self._lock:
             self._opened.discard(stream)
         stream.close()

@@ -15,9 +15,10 @@ from robocomp_dsl.runtime.codec.bottle.text_reader import Continuation, read_tex
 from robocomp_dsl.runtime.codec.bottle.text_writer import write_text
 from robocomp_dsl.runtime.codec.bottle.values import Bottle
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 from robocomp_dsl.runtime.middleware.yarp import wire
 from robocomp_dsl.runtime.middleware.yarp.port_protocols import ListeningPort
-from robocomp_dsl.runtime.middleware.yarp.stream import MAX_LINE, ConnectionLost, Stream
+from robocomp_dsl.runtime.middleware.yarp.stream import MAX_LINE, YarpStream
 
 SET_UP_S = 10.0
 """A client that connects must name its carrier within this time."""
@@ -42,7 +43,7 @@ _HELP = (
 class Incoming:
     """A connection. `sender` is the name of the other port."""
 
-    def __init__(self, port: ListeningPort, stream: Stream, profile: Profile) -> None:
+    def __init__(self, port: ListeningPort, stream: YarpStream, profile: Profile) -> None:
         self.sender = ""
         self.carrier = ""
         self._port = port

@@ -18,10 +18,11 @@ from robocomp_dsl.runtime.codec.bottle.values import Bottle
 from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.component.user_errors import describe_error
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, MiddlewareError
+from robocomp_dsl.runtime.middleware.tcp.stream import failure_reason
 from robocomp_dsl.runtime.middleware.yarp.admin import answer_admin
 from robocomp_dsl.runtime.middleware.yarp.incoming import Incoming
 from robocomp_dsl.runtime.middleware.yarp.port_protocols import Outputs, Receiver
-from robocomp_dsl.runtime.middleware.yarp.stream import Stream, reason
+from robocomp_dsl.runtime.middleware.yarp.stream import YarpStream
 
 MAX_CONNECTIONS = 256
 """Incoming connections of one port; further ones are closed at once."""
@@ -55,7 +56,9 @@ class YarpPort:
             self._socket = socket.create_server(at)
         except (OSError, OverflowError) as error:
             where = f"{at[0]}:{at[1]}"
-            raise MiddlewareError(f"YARP cannot listen at {where}: {reason(error)}") from None
+            raise MiddlewareError(
+                f"YARP cannot listen at {where}: {failure_reason(error)}"
+            ) from None
         self.host = at[0]
         self.number: int = self._socket.getsockname()[1]
         self._thread = threading.Thread(target=self._accept, name=f"yarp {name}", daemon=True)
@@ -71,9 +74,9 @@ class YarpPort:
                 # Too many open files: the connection stays in the queue of the system.
                 time.sleep(0.1)
                 continue
-            self._start(Stream(accepted))
+            self._start(YarpStream(accepted))
 
-    def _start(self, stream: Stream) -> None:
+    def _start(self, stream: YarpStream) -> None:
         incoming = Incoming(self, stream, self.profile)
         with self._lock:
             accepted = not self._closed and len(self._connections) < MAX_CONNECTIONS
@@ -98,7 +101,7 @@ class YarpPort:
     def connected(self, incoming: Incoming) -> None:
         """A connection has told its name and carrier."""
 
-    def name_requests(self, stream: Stream) -> Callable[[], None] | None:
+    def name_requests(self, stream: YarpStream) -> Callable[[], None] | None:
         """What serves the requests of the name server's own carrier; None: no name server."""
         del stream
         return None
