@@ -124,6 +124,8 @@ class TcpStream:
         filled = min(size, len(self._buffer) - self._at)
         target[:filled] = self._buffer[self._at : self._at + filled]
         self._at += filled
+        if self._at == len(self._buffer):
+            self._buffer, self._at = b"", 0
         while filled < size:
             filled += self._receive(target[filled:])
         self.bytes_in += size

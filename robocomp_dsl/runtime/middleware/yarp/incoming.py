@@ -15,7 +15,6 @@ from robocomp_dsl.runtime.codec.bottle.text_reader import Continuation, read_tex
 from robocomp_dsl.runtime.codec.bottle.text_writer import write_text
 from robocomp_dsl.runtime.codec.bottle.values import Bottle
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
-from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 from robocomp_dsl.runtime.middleware.yarp import wire
 from robocomp_dsl.runtime.middleware.yarp.port_protocols import ListeningPort
 from robocomp_dsl.runtime.middleware.yarp.stream import MAX_LINE, YarpStream
@@ -51,19 +50,15 @@ class Incoming:
         self._profile = profile
 
     def run(self) -> None:
-        """Serve the connection until it ends."""
+        """Serve the connection until it ends. Raises `ConnectionLost`."""
         try:
             self._stream.deadline = time.monotonic() + SET_UP_S
             serve = self._accept()
             self._stream.deadline = None
             if serve:
                 serve()
-        except ConnectionLost:
-            pass
         except MalformedMessage as error:
             self._port.report_malformed(self.sender, error)
-        finally:
-            self._stream.close()
 
     def close(self) -> None:
         """End the connection; called from any thread."""
