@@ -46,6 +46,10 @@ def test_bridge_example_is_valid(block: Block, tmp_path: Path) -> None:
     (tmp_path / "RoboCompMotors.idsl").write_text(
         "module RoboCompMotors { interface Motors { bool setPower(bool on); }; };"
     )
+    actions = tmp_path / "my_msgs" / "action"
+    actions.mkdir(parents=True)
+    width = "float64 width  # [m]\n"
+    (actions / "Grasp.action").write_text(f"{width}---\n{width}---\n{width}")
     path = tmp_path / "example.bdsl"
     path.write_text(block.text, encoding="utf-8")
     report = Report()

@@ -99,6 +99,8 @@ hub both = left, target.x;
 """
 STATES = "output states : robot_msgs::Wheels over ros2 { "
 DRIVE = "output drive : Robot::Motors.setSpeed over ice { "
+ACTION = """action g : actionlib_msgs::Grasp over ros1 at "/g"
+{ state hand : (double width [m], bool moving) over yarp; """
 CALL = """service s : robot_msgs::Enable
 { call p : Robot::Motors.setPower over ice { on = request.data; limit = 1; }; """
 COMPLETIONS: list[tuple[str, set[str], set[str]]] = [
@@ -153,6 +155,10 @@ COMPLETIONS: list[tuple[str, set[str], set[str]]] = [
     (within(INPUTS + STATES + "item |"), {"left", "now"}, {"header"}),
     (within(INPUTS + DRIVE + "|"), {"advance", "mode"}, {"result"}),
     (within(INPUTS + DRIVE + "mode = |"), {"OFF", "MANUAL", "left"}, {"advance"}),
+    (within(ACTION + "|"), {"command", "succeed", "timeout"}, {"rate", "left"}),
+    (within(ACTION + "succeed when |"), {"goal", "hand", "now"}, {"left", "succeed"}),
+    (within(ACTION + "succeed when hand.|"), {"width", "moving"}, {"left", "hand"}),
+    (within(ACTION + "timeout 5 |"), {"ms", "s"}, {"hand"}),
     (within(CALL + "|"), {"success", "call"}, {"data", "rate", "depth"}),
     (within(CALL + "success = |"), {"request", "p", "true"}, {"left"}),
     (within(CALL + "success = p.|"), {"result"}, {"data"}),

@@ -11,7 +11,7 @@ from robocomp_dsl.check.bdsl.type_words import type_text
 from robocomp_dsl.check.codes import bridge_values as codes
 from robocomp_dsl.model.bridge_ports import TIME, ItemsType, TimeType
 from robocomp_dsl.model.bridge_values import Counter, Expression, ListExpression
-from robocomp_dsl.model.types import DOUBLE, INT, STRING, Field, Primitive, Type
+from robocomp_dsl.model.types import DOUBLE, INT, STRING, Field, Primitive, Sequence, Type
 
 
 def item_type(value: Expression, name: str, context: BridgeContext) -> Type:
@@ -39,6 +39,9 @@ def item_type(value: Expression, name: str, context: BridgeContext) -> Type:
         return INT
     if isinstance(value.type, Primitive) and value.type.is_text:
         return STRING
+    if isinstance(value.type, Sequence) and value.type.is_anonymous:
+        # The array of a field in a ROS definition has no declaration that IDSL can name.
+        return context.types.sequence(value.type.element, 0, value.span)
     return value.type
 
 

@@ -26,6 +26,7 @@ class BridgeCounts:
     latency_total_ns: int = 0
     latency_max_ns: int = 0
     latencies: int = 0
+    dropped_inputs: int = 0
 
     def add_latency(self, nanoseconds: int) -> None:
         """Count the latency of one message."""
@@ -52,6 +53,13 @@ class BridgeCounts:
         return ", ".join(parts)
 
 
+def transport_losses(operation: OperationCounts, counts: BridgeCounts) -> str:
+    """What the middleware lost of the messages of a port: `, 3 malformed, 7 lost`; may be empty."""
+    lost = operation.drops + operation.missed - counts.dropped_inputs
+    parts = [f", {operation.malformed} malformed"] if operation.malformed else []
+    return "".join([*parts, f", {lost} lost by the middleware"] if lost > 0 else parts)
+
+
 class LossReport:
     """Counts and reports the losses of one input, output or service.
 
@@ -69,6 +77,7 @@ class LossReport:
     def lose_input(self, reason: str, place: str, text: str = "") -> None:
         """Count a received message that no output will use."""
         self._operation.drops += 1
+        self.counts.dropped_inputs += 1
         self._report("dropped", reason, text or reason, place)
 
     def lose_output(self, reason: str, text: str, place: str) -> None:

@@ -47,7 +47,8 @@ class Durations:
 class OperationCounts:
     """Counts of one operation of one port. `durations`: call to reply, or of the handler.
 
-    `held`: messages that waited because the queue of the subscriber was full.
+    `held`: messages that waited because the queue of the subscriber was full. `place`: `file:line`
+    of the declaration that users know, for messages about losses; empty without one.
     """
 
     port: str
@@ -61,6 +62,12 @@ class OperationCounts:
     missed: int = 0
     held: int = 0
     durations: Durations = field(default_factory=Durations)
+    place: str = ""
+
+    @property
+    def suffix(self) -> str:
+        """The place as the end of a message; empty without one."""
+        return f" ({self.place})" if self.place else ""
 
 
 @dataclass(slots=True)

@@ -19,6 +19,7 @@ from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.component.receiver import LeaderFollowerQueue, QueueClosed
 from robocomp_dsl.runtime.component.statistics import OperationCounts, Statistics
 from robocomp_dsl.runtime.component.thread_priority import ThreadPriority
+from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.component.user_errors import log_failure
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.message_stamp import with_header_stamp
@@ -45,7 +46,7 @@ class IncomingOperation:
     __slots__ = (
         "_handler",
         "_port",
-        "_reported",
+        "_throttle",
         "counts",
         "handle",
         "losses",
@@ -62,7 +63,7 @@ class IncomingOperation:
     ) -> None:
         self.operation = operation
         self._port = port
-        self._reported = False
+        self._throttle = Throttle()
         self.losses = losses
         self.numbers: deque[bytes] = losses.pending if losses else deque(maxlen=1)
         self.counts: OperationCounts = port.statistics.of(port.at.port, operation.name)
@@ -168,10 +169,9 @@ class IncomingOperation:
         else:
             counts.calls += 1  # `handle` was not called
             counts.malformed += 1
-            # A peer that sends malformed messages at a high rate is reported once.
-            if not self._reported:
-                self._reported = True
-                log.warning("rejected a message for %s: %s", what, error)
+            if self._throttle.allows("malformed"):
+                so_far = f"; {counts.malformed} so far" if counts.malformed > 1 else ""
+                log.warning("rejected a message for %s: %s%s%s", what, error, counts.suffix, so_far)
 
 
 class IncomingPort:

@@ -43,6 +43,11 @@ def as_array(value: Any, dtype: np.dtype[Any]) -> NDArray[Any]:
         what = described(value) if array.ndim == 0 else f"an array of shape {array.shape}"
         hint = "; .ravel() makes it one-dimensional" if array.ndim > 1 else ""
         raise EncodeError(f"takes a one-dimensional sequence of {dtype.name}, not {what}{hint}")
+    if array.dtype.kind in "US":
+        at, text = next(
+            (at, item) for at, item in enumerate(value) if isinstance(item, str | bytes)
+        )
+        raise EncodeError(f"takes numbers ({dtype.name}), not {described(text)}", f"[{at}]")
     if array.dtype != dtype:
         array = _converted(array, dtype) if array.size else np.empty(0, dtype)
     return np.ascontiguousarray(array, dtype)

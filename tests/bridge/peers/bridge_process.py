@@ -52,11 +52,23 @@ class BridgeProcess:
         return self._log.read_text()
 
     @property
+    def pid(self) -> int:
+        """Its process."""
+        return self._process.pid
+
+    def ended(self) -> str:
+        """End it; returns what it has logged, with its counts."""
+        self.close()
+        return self.log
+
+    @property
     def is_running(self) -> bool:
         return self._process.poll() is None
 
     def close(self) -> None:
         """End it."""
+        if not self.is_running:
+            return
         self._process.terminate()
         try:
             self._process.wait(TIMEOUT_S)

@@ -7,6 +7,8 @@ with a line of JSON.
 import importlib
 import json
 import sys
+import threading
+import time
 
 import genpy.dynamic
 import rospy
@@ -38,6 +40,7 @@ class Peer:
         self.messages = {}
         self.publishers = {}
         self.dynamic = {}
+        self.streams = {}
         out = rospy.Publisher(f"/{name}/out", String, queue_size=100, tcp_nodelay=True)
         rospy.Subscriber(f"/{name}/in", String, out.publish, tcp_nodelay=True)
         self.map = rospy.Publisher(f"/{name}/map", String, queue_size=1, latch=True)
@@ -66,6 +69,15 @@ class Peer:
     def advertise(self, topic, type_):
         self.publishers[topic] = rospy.Publisher(topic, self.type_of(type_), queue_size=10)
 
+    def advertise_malformed(self, topic, type_, size):
+        """Advertise a type whose messages are `size` bytes that mean nothing."""
+
+        class Malformed(self.type_of(type_)):
+            def serialize(self, buff):
+                buff.write(b"\x7f" * size)
+
+        self.publishers[topic] = rospy.Publisher(topic, Malformed, queue_size=10)
+
     def connections(self, topic):
         return self.publishers[topic].get_num_connections()
 
@@ -79,6 +91,36 @@ class Peer:
                 target = getattr(target, part)
             setattr(target, last, value)
         publisher.publish(message)
+
+    def stream(self, topic, fields, period):
+        """Publish the same message again and again, until `stop`."""
+        running = self.streams[topic] = threading.Event()
+
+        def run():
+            while not running.is_set():
+                self.publish(topic, fields)
+                time.sleep(period)
+
+        threading.Thread(target=run, daemon=True).start()
+
+    def stop(self, topic):
+        self.streams[topic].set()
+
+    def subscribe_slowly(self, topic, type_, pause):
+        """Subscribe with a callback that sleeps for `pause` s; TCP holds what comes meanwhile."""
+        messages = self.messages[topic] = []
+
+        def receive(message):
+            messages.append(time.time())
+            time.sleep(pause)
+
+        rospy.Subscriber(topic, self.type_of(type_), receive, queue_size=1, buff_size=65536)
+
+    def count(self, topic):
+        return len(self.messages[topic])
+
+    def last(self, topic):
+        return self.messages[topic][-1] if self.messages[topic] else None
 
     def publish_image(self, topic, size):
         message = self.publishers[topic].data_class()

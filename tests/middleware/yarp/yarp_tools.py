@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress
+from robocomp_dsl.runtime.middleware.yarp.name_client import NameClient, NameServerLost
 from tests.middleware.yarp.conftest import LOOPBACK
 
 VENV = Path(__file__).parents[3] / "build" / "yarp-venv"
@@ -95,9 +97,26 @@ class Tools:
 
     def restart_name_server(self) -> None:
         """End YARP's name server, and start another, which knows no ports."""
+        self.stop_name_server()
+        self.start_name_server()
+
+    def stop_name_server(self) -> None:
+        """End YARP's name server."""
         self._name_server.kill()
         self._name_server.wait()
-        self.start_name_server()
+
+    def address_of(self, port: str) -> PortAddress:
+        """Where a port is, which must be known."""
+        found = NameClient((LOOPBACK, self.number)).query(port)
+        assert found is not None, f"the name server does not know {port}"
+        return found
+
+    def knows(self, port: str) -> bool:
+        """Whether the name server replies and knows a port."""
+        try:
+            return NameClient((LOOPBACK, self.number)).query(port) is not None
+        except NameServerLost:
+            return False
 
     def python(self, source: str) -> subprocess.Popen[str]:
         """Start a program that uses YARP's Python bindings."""

@@ -93,7 +93,12 @@ class TopicReceiver:
     def warn(self, key: str, text: str, *values: Any) -> None:
         """Log a warning, limited in rate for each key."""
         if self._throttle.allows(key):
-            log.warning(f"%s: {text}", self.port, *values)
+            log.warning(f"%s: {text}%s", self.port, *values, self._served.counts.suffix)
+
+    def inform(self, key: str, text: str, *values: Any) -> None:
+        """Log what happens in a normal run, limited in rate for each key."""
+        if self._throttle.allows(key):
+            log.info(f"%s: {text}", self.port, *values)
 
     def close(self) -> None:
         """End all connections."""

@@ -6,7 +6,6 @@ again after the connection was lost, as long as the master knows the publisher.
 
 from __future__ import annotations
 
-import contextlib
 import threading
 import time
 from collections.abc import Sequence
@@ -32,6 +31,7 @@ class TopicSubscription:
         self._publishers: frozenset[str] = frozenset()
         self._threads: dict[str, threading.Thread] = {}
         self._closed = False
+        self._has_lost = False
 
     def update(self, publishers: Sequence[str]) -> None:
         """The addresses of all publishers. Connections to others last until these end them."""
@@ -63,13 +63,24 @@ class TopicSubscription:
                     self.receiver.warn(uri, "no connection to a publisher of %s: %s", name, error)
             else:
                 is_reported = False
-                with contextlib.suppress(ConnectionLost):  # a publisher that ends
-                    self.receiver.receive(stream, peer)
+                self._receive(stream, peer)
             with self._changed:
                 self._changed.wait_for(lambda: self._is_ended(uri), pause)
                 if self._is_ended(uri):
                     self._threads.pop(uri, None)
                     return
+
+    def _receive(self, stream: TcprosStream, peer: str) -> None:
+        """Receive until the publisher ends. Reports the end, and the connection after one."""
+        topic = self.receiver.topic.name
+        if self._has_lost:
+            self.receiver.inform(f"connected {peer}", "%s is connected to %s", topic, peer)
+        try:
+            self.receiver.receive(stream, peer)
+        except ConnectionLost:
+            if not self._closed:
+                self._has_lost = True
+                self.receiver.inform(f"ended {peer}", "%s: the publisher %s ended", topic, peer)
 
     def _is_ended(self, uri: str) -> bool:
         return self._closed or uri not in self._publishers

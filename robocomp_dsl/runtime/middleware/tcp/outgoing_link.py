@@ -54,6 +54,8 @@ class OutgoingLink:
         self, sender: str, peer: str, qos: Qos, on_end: Callable[[Any], None] | None = None
     ) -> None:
         self.peer = peer
+        self.where = peer
+        """Name of the peer, and its address if it has one, for messages."""
         self.messages_out = 0
         self.bytes_out = 0
         self._sender = sender
@@ -68,6 +70,8 @@ class OutgoingLink:
         self._drops = 0
         self._is_sending = False
         self._stalled = False
+        self._is_absent = False
+        self._absent_drops = 0
         self._closed = False
         name = f"{sender} to {peer}"
         self._thread = threading.Thread(target=self._run, name=name, daemon=True)
@@ -102,6 +106,9 @@ class OutgoingLink:
         size = message.wire_size
         with self._changed:
             if self._closed:
+                return
+            if self._is_absent:
+                self._drop(counts)
                 return
             self.messages_out += 1
             self.bytes_out += size
@@ -148,8 +155,8 @@ class OutgoingLink:
         if not self._reliable:
             while not self._fits(size):
                 self._drop(self._remove(int(self._is_sending)))
-            text = "%s: %s does not take the messages in time; it has lost %d"
-            self._warn("slow", text, self._sender, self.peer, self._drops)
+            text = "%s: %s does not take the messages in time; it has lost %d%s"
+            self._warn("slow", text, self._sender, self.peer, self._drops, counts.suffix)
             return True
         if not self._stalled:
             hold_s = bounded_queue.HOLD_S
@@ -160,8 +167,8 @@ class OutgoingLink:
             self._warn(
                 "held",
                 "%s receives nothing and held a publication for %g ms; until it does, it"
-                " loses messages",
-                *(self.peer, hold_s * 1000),
+                " loses messages%s",
+                *(self.peer, hold_s * 1000, counts.suffix),
             )
         self._drop(counts)
         return False
@@ -200,6 +207,11 @@ class OutgoingLink:
             else:
                 with self._changed:
                     self._stream = stream
+                    was_absent, self._is_absent = self._is_absent, False
+                    lost = self._drops - self._absent_drops
+                if was_absent:
+                    text = "%s is connected to %s; messages lost meanwhile: %d"
+                    log.info(text, self._sender, self.peer, lost)
                 return True
         return False
 
@@ -211,14 +223,29 @@ class OutgoingLink:
                 # Perhaps a rest, which a new connection cannot take.
                 self._drop(self._remove(0))
             self._is_sending = False
+            ends = self._closed or self._on_end is not None
+            suffix = "" if ends or self._reliable else self._lose_messages()
         if stream:
             stream.close()
-        if self._closed or self._on_end:
+        if ends:
             if self._on_end:
                 self._on_end(self)
             return True
-        self._warn("lost", "%s: no connection to %s: %s", self._sender, self.peer, error)
+        text = "%s: no connection to %s: %s%s"
+        self._warn("lost", text, self._sender, self.where, error, suffix)
         return False
+
+    def _lose_messages(self) -> str:
+        """Drop all messages until there is a connection; returns what to add to the warning.
+
+        A peer that comes back would get commands that are long out of date.
+        """
+        if not self._is_absent:
+            self._is_absent = True
+            self._absent_drops = self._drops
+        while self._queue:
+            self._drop(self._remove(0))
+        return "; until there is one, messages are lost"
 
     def _send_queued(self, stream: Any) -> None:
         """Send what arrives until the link is closed. Raises `ConnectionLost`."""

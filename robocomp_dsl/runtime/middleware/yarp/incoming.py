@@ -58,7 +58,10 @@ class Incoming:
             if serve:
                 serve()
         except MalformedMessage as error:
-            self._port.report_malformed(self.sender, error)
+            if self.carrier:
+                self._port.malformed(self.sender, error, "D")
+            else:
+                self._port.report_malformed(self.sender, error)
 
     def close(self) -> None:
         """End the connection; called from any thread."""

@@ -26,6 +26,7 @@ class OutputLink(OutgoingLink):
     ) -> None:
         super().__init__(sender, address.name, qos, on_end)
         self.address = address
+        self.where = str(address)
         self.sends_at_once = address.carrier == "fast_tcp"
         self._resolve = resolve
 

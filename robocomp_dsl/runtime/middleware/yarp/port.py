@@ -98,8 +98,11 @@ class YarpPort:
 
     def malformed(self, sender: str, error: MalformedMessage, command: str) -> Bottle | None:
         """A message cannot be read: report it, and return the reply if one is expected."""
-        self.report_malformed(sender, error)
-        reply = self.receiver.reject(error) if self.receiver else []
+        if self.receiver is None:
+            self.report_malformed(sender, error)
+            return None if command == "D" else []
+        text = f"{error.reason} (from {sender or 'a program'} at {self.name})"
+        reply = self.receiver.reject(MalformedMessage(text, error.path, error.offset))
         return None if command == "D" else reply
 
     def unwritable(self, error: EncodeError) -> Bottle:

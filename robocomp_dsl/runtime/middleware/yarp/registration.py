@@ -80,6 +80,8 @@ class Registration:
             except NameServerLost as error:
                 self._name_server_lost(error, ports)
             else:
+                if self._is_lost:
+                    log.info("the name server of YARP replies")
                 self._is_lost = False
             for each in ports:
                 self._connect_publishers(each)
@@ -126,13 +128,16 @@ class Registration:
         port = registered.port
         inputs = port.inputs()
         for publisher in registered.publishers:
-            if publisher.name in inputs or self._closed:
-                registered.refused.discard(publisher.name)
-                continue
-            failure = self._ask_to_connect(port, publisher)
+            if self._closed:
+                return
+            is_connected = publisher.name in inputs
+            failure = "" if is_connected else self._ask_to_connect(port, publisher)
             if failure and publisher.name not in registered.refused:
                 registered.refused.add(publisher.name)
                 log.warning("%s is not connected to %s: %s", port.name, publisher.name, failure)
+            elif not failure and publisher.name in registered.refused:
+                registered.refused.discard(publisher.name)
+                log.info("%s is connected to %s", port.name, publisher.name)
 
     def _ask_to_connect(self, port: YarpPort, publisher: PortAddress) -> str:
         """Why a publisher cannot send to `port`; empty if it does."""
