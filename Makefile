@@ -55,11 +55,12 @@ test-editors: test-tools
 	$(BIN)/python -m pytest -q -m editors tests/editors
 
 # Programs of other projects call components, and are called by them: ZeroC Ice, YARP, ROS 1, ROS 2, DDS.
+# One test at a time: every yarpserver gives its programs the same TCP ports.
 test-peers: $(READY)
 	tests/middleware/install-peers.sh $(CURDIR)/$(BIN)/python
 	tests/middleware/yarp/install-peers.sh build/yarp-venv
 	tests/middleware/ros1/install-peers.sh
-	$(BIN)/python -m pytest -q -n $(WORKERS) -m peers tests/middleware tests/bridge --ignore tests/middleware/ros2
+	$(BIN)/python -m pytest -q -m peers tests/middleware tests/bridge --ignore tests/middleware/ros2
 	$(BIN)/python -m pytest -q -n $(WORKERS) tests/middleware/conformance --middleware ice
 	tests/middleware/ros2/install-peers.sh $(PYTHON) build/peers-venv
 	build/peers-venv/bin/python -m pytest -q -m peers tests/middleware/ros2

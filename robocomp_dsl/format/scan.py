@@ -66,5 +66,7 @@ def _kind_in_expression(token: FormatToken, tokens: list[FormatToken]) -> str:
     before = [earlier for earlier in tokens[-8:] if not earlier.is_comment]
     if not before or not (before[-1].kind in _OPERANDS or before[-1].text in (")", "}")):
         return "UNARY"
+    if before[-1].text.lower() in ("when", "and"):
+        return "UNARY"
     starts = len(before) < 2 or before[-2].kind == "_SEMI" or before[-2].text in ("{", "}")
     return "UNARY" if starts and before[-1].text.lower() == "item" else "SIGN"

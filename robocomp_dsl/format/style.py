@@ -79,7 +79,7 @@ STYLES: Mapping[str, Style] = {
         before=_BEFORE - {"("} | {"INDEX"},
         after=_AFTER | {"UNARY"},
         pairs=frozenset((("ID", "("), ("{", "}"))),
-        wraps=frozenset(("over", "at", "to", "->", "+", "-", "*", "/")),
+        wraps=frozenset(("over", "at", "on", "and", "to", "->", "+", "-", "*", "/")),
         operators=True,
         inline_braces=True,
     ),

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from robocomp_dsl.model.bridge_actions import BridgeAction
 from robocomp_dsl.model.bridge_ports import BridgeFunction, BridgeInput, BridgePort
 from robocomp_dsl.model.bridge_values import BridgeCall, BridgeHub, BuiltValue, ExpressionUse
 from robocomp_dsl.model.interface import Module
@@ -60,14 +61,21 @@ class Bridge(Record):
     hubs: tuple[BridgeHub, ...]
     outputs: tuple[BridgeOutput, ...]
     services: tuple[BridgeService, ...]
+    actions: tuple[BridgeAction, ...] = ()
     middleware: str = "zenoh"
     doc: str = ""
 
     @property
+    def received(self) -> tuple[BridgeInput, ...]:
+        """All topics that it receives: inputs, then those of actions."""
+        return (*self.inputs, *(item for action in self.actions for item in action.inputs))
+
+    @property
     def ports(self) -> tuple[BridgePort, ...]:
-        """All ports, in order: inputs, outputs, services, calls."""
+        """All ports, in order: inputs, outputs, services, calls, those of actions."""
         calls = (call.port for service in self.services for call in service.calls)
         received = (item.port for item in self.inputs)
         sent = (item.port for item in self.outputs)
         served = (service.port for service in self.services)
-        return (*received, *sent, *served, *calls)
+        of_actions = (port for action in self.actions for port in action.ports)
+        return (*received, *sent, *served, *calls, *of_actions)

@@ -52,6 +52,6 @@ def _built_in(name: str) -> MiddlewareDescription:
 
 
 BRIDGED_MIDDLEWARES = FixedMiddlewares(
-    tuple(_built_in(name) for name in ("ice", "inproc", "ros2", "yarp", "zenoh"))
+    tuple(_built_in(name) for name in ("ice", "inproc", "ros1", "ros2", "yarp", "zenoh"))
 )
 """Those between which the cases of bridges pass data."""

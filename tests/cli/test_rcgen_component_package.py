@@ -62,7 +62,7 @@ def test_package_rename_changes_imports_and_removes_old_files(rcgen: Rcgen, talk
     assert run.code == 0
     assert "note[RC625]: the generated code is in `talker_generated/` now" in run.err
     assert "imports change in `lib/other.py`, `specificworker.py`" in run.err
-    assert "4 old ones removed" in run.out
+    assert "4 old files removed" in run.out
     assert not (talker / "generated").exists()
     assert (talker / "specificworker.py").read_bytes() == MOVED.encode()
     other = OTHER.replace("from generated", "from talker_generated")

@@ -99,6 +99,8 @@ hub both = left, target.x;
 """
 STATES = "output states : robot_msgs::Wheels over ros2 { "
 DRIVE = "output drive : Robot::Motors.setSpeed over ice { "
+ACTION = """action g : actionlib_msgs::Grasp over ros1 at "/g"
+{ state hand : (double width [m], bool moving) over yarp; """
 CALL = """service s : robot_msgs::Enable
 { call p : Robot::Motors.setPower over ice { on = request.data; limit = 1; }; """
 COMPLETIONS: list[tuple[str, set[str], set[str]]] = [
@@ -153,6 +155,10 @@ COMPLETIONS: list[tuple[str, set[str], set[str]]] = [
     (within(INPUTS + STATES + "item |"), {"left", "now"}, {"header"}),
     (within(INPUTS + DRIVE + "|"), {"advance", "mode"}, {"result"}),
     (within(INPUTS + DRIVE + "mode = |"), {"OFF", "MANUAL", "left"}, {"advance"}),
+    (within(ACTION + "|"), {"command", "succeed", "timeout"}, {"rate", "left"}),
+    (within(ACTION + "succeed when |"), {"goal", "hand", "now"}, {"left", "succeed"}),
+    (within(ACTION + "succeed when hand.|"), {"width", "moving"}, {"left", "hand"}),
+    (within(ACTION + "timeout 5 |"), {"ms", "s"}, {"hand"}),
     (within(CALL + "|"), {"success", "call"}, {"data", "rate", "depth"}),
     (within(CALL + "success = |"), {"request", "p", "true"}, {"left"}),
     (within(CALL + "success = p.|"), {"result"}, {"data"}),
@@ -354,3 +360,20 @@ async def test_quick_fix_and_diagnostics_of_bdsl(rover: Editor) -> None:
     actions = [action for action in found or () if isinstance(action, lsp.CodeAction)]
     changes = [action.edit.changes for action in actions if action.edit and action.edit.changes]
     assert any(edited(list(edits[uri]), text) == ROVER for edits in changes)
+
+
+async def test_code_lens_generates_bridge(rover: Editor) -> None:
+    text = """Bridge doubled
+{
+    input left : double over yarp at "/left:o";
+    output twice : double over yarp at "/twice:i" = left * 2;
+};
+"""
+    rover.write("doubled.bdsl", text)
+    document = lsp.TextDocumentIdentifier(rover.open("doubled.bdsl", text))
+    (lens,) = await rover.client.text_document_code_lens_async(lsp.CodeLensParams(document)) or ()
+    assert lens.command is not None
+    assert lens.command.title == "generate bridge"
+    params = lsp.ExecuteCommandParams(lens.command.command, list(lens.command.arguments or ()))
+    assert await rover.client.workspace_execute_command_async(params) is True
+    assert (rover.folder / "specificworker.py").is_file()

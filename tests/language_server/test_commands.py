@@ -84,8 +84,8 @@ async def test_generate_command_requires_saved_files(editor: Editor) -> None:
 @pytest.mark.parametrize(
     ("command", "arguments", "why"),
     [
-        ("rcgen.generate", [], "takes the URI of a CDSL file"),
-        ("rcgen.generate", [7], "takes the URI of a CDSL file"),
+        ("rcgen.generate", [], "takes the URI of a CDSL or BDSL file"),
+        ("rcgen.generate", [7], "takes the URI of a CDSL or BDSL file"),
         ("rcgen.generate", ["file:///a.idsl"], "is not a component"),
         ("rcgen.generate", ["file:///nowhere/a.cdsl"], "cannot read `a.cdsl`"),
         ("rcgen.generate", ["untitled:a.cdsl"], "is not a file of a supported language"),

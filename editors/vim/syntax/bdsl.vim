@@ -31,6 +31,22 @@ hi def link bdsl_Bridge_value bdslValue
 hi def link bdsl_Bridge_name bdslName
 hi def link bdsl_Bridge_field bdslField
 syn region bdsl_Bridge matchgroup=bdslDeclaration start=/\<Bridge\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_Bridge_inner,bdsl_Bridge_value,bdsl_Bridge_name,bdsl_Bridge_field
+syn match bdsl_abort_inner contained /\.\@<!\<and\>\.\@!\%(\s*\%("\|(\|-\|[-+.0-9]\|\h\|{\|\/[*\/]\|$\)\)\@=/
+syn match bdsl_abort_inner contained /\.\@<!\<to\>\.\@!\%(\s*\%(\[\|\/[*\/]\|$\)\)\@=/
+syn match bdsl_abort_inner contained /\.\@<!\<when\>\.\@!\%(\s*\%("\|(\|-\|[-+.0-9]\|\h\|{\|\/[*\/]\|$\)\)\@=/
+hi def link bdsl_abort_inner bdslModifier
+hi def link bdsl_abort_value bdslValue
+hi def link bdsl_abort_name bdslName
+hi def link bdsl_abort_field bdslField
+syn region bdsl_abort matchgroup=bdslKeyword start=/\<abort\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_abort_inner,bdsl_abort_value,bdsl_abort_name,bdsl_abort_field
+syn match bdsl_action_inner contained /\.\@<!\<at\>\.\@!\%(\s*\%("\|\/[*\/]\|$\)\)\@=/
+syn match bdsl_action_inner contained /\.\@<!\<over\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match bdsl_action_name contained /\%(\<action\s\+\)\@<=\h\w*/
+hi def link bdsl_action_inner bdslModifier
+hi def link bdsl_action_value bdslValue
+hi def link bdsl_action_name bdslName
+hi def link bdsl_action_field bdslField
+syn region bdsl_action matchgroup=bdslDeclaration start=/\<action\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_action_inner,bdsl_action_value,bdsl_action_name,bdsl_action_field
 hi def link bdsl_best_effort_inner bdslModifier
 hi def link bdsl_best_effort_value bdslValue
 hi def link bdsl_best_effort_name bdslName
@@ -44,6 +60,16 @@ hi def link bdsl_call_value bdslValue
 hi def link bdsl_call_name bdslName
 hi def link bdsl_call_field bdslField
 syn region bdsl_call matchgroup=bdslDeclaration start=/\<call\>\%(\s*\%(;\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_call_inner,bdsl_call_value,bdsl_call_name,bdsl_call_field
+syn match bdsl_command_inner contained /\.\@<!\<at\>\.\@!\%(\s*\%("\|\/[*\/]\|$\)\)\@=/
+syn match bdsl_command_inner contained /\.\@<!\<cancel\>\.\@!\%(\s*\%(;\|{\|\/[*\/]\|$\)\)\@=/
+syn match bdsl_command_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match bdsl_command_inner contained /\.\@<!\<over\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match bdsl_command_name contained /\%(\<command\s\+\)\@<=\h\w*/
+hi def link bdsl_command_inner bdslModifier
+hi def link bdsl_command_value bdslValue
+hi def link bdsl_command_name bdslName
+hi def link bdsl_command_field bdslField
+syn region bdsl_command matchgroup=bdslDeclaration start=/\<command\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_command_inner,bdsl_command_value,bdsl_command_name,bdsl_command_field
 hi def link bdsl_deadline_inner bdslModifier
 hi def link bdsl_deadline_value bdslValue
 hi def link bdsl_deadline_name bdslName
@@ -164,6 +190,27 @@ hi def link bdsl_stamp_value bdslValue
 hi def link bdsl_stamp_name bdslName
 hi def link bdsl_stamp_field bdslField
 syn region bdsl_stamp matchgroup=bdslKeyword start=/\<stamp\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_stamp_inner,bdsl_stamp_value,bdsl_stamp_name,bdsl_stamp_field
+syn match bdsl_state_inner contained /\.\@<!\<at\>\.\@!\%(\s*\%("\|\/[*\/]\|$\)\)\@=/
+syn match bdsl_state_inner contained /\.\@<!\<over\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match bdsl_state_name contained /\%(\<state\s\+\)\@<=\h\w*/
+hi def link bdsl_state_inner bdslModifier
+hi def link bdsl_state_value bdslValue
+hi def link bdsl_state_name bdslName
+hi def link bdsl_state_field bdslField
+syn region bdsl_state matchgroup=bdslDeclaration start=/\<state\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_state_inner,bdsl_state_value,bdsl_state_name,bdsl_state_field
+syn match bdsl_succeed_inner contained /\.\@<!\<and\>\.\@!\%(\s*\%("\|(\|-\|[-+.0-9]\|\h\|{\|\/[*\/]\|$\)\)\@=/
+syn match bdsl_succeed_inner contained /\.\@<!\<to\>\.\@!\%(\s*\%(\[\|\/[*\/]\|$\)\)\@=/
+syn match bdsl_succeed_inner contained /\.\@<!\<when\>\.\@!\%(\s*\%("\|(\|-\|[-+.0-9]\|\h\|{\|\/[*\/]\|$\)\)\@=/
+hi def link bdsl_succeed_inner bdslModifier
+hi def link bdsl_succeed_value bdslValue
+hi def link bdsl_succeed_name bdslName
+hi def link bdsl_succeed_field bdslField
+syn region bdsl_succeed matchgroup=bdslKeyword start=/\<succeed\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_succeed_inner,bdsl_succeed_value,bdsl_succeed_name,bdsl_succeed_field
+hi def link bdsl_timeout_inner bdslModifier
+hi def link bdsl_timeout_value bdslValue
+hi def link bdsl_timeout_name bdslName
+hi def link bdsl_timeout_field bdslField
+syn region bdsl_timeout matchgroup=bdslKeyword start=/\<timeout\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@bdslAny,bdslComment,bdslDoc,bdsl_timeout_inner,bdsl_timeout_value,bdsl_timeout_name,bdsl_timeout_field
 syn match bdslComment ,//.*,
 syn match bdslComment /#.*/
 syn match bdslDoc ,///[/<]\@!.*,

@@ -9,29 +9,31 @@ import { reportMissing } from "./server";
 
 /** The commands by the names that `package.json` gives them. */
 export const COMMANDS: Readonly<Record<string, (chosen?: vscode.Uri) => Promise<void>>> = {
-  "robocomp.generate": (chosen) => onFile(chosen, ".cdsl", "rcgen", ["component"], "Generate"),
-  "robocomp.deploy": (chosen) => onFile(chosen, ".ddsl", "rcdeploy", ["up"], "Deploy"),
-  "robocomp.stop": (chosen) => onFile(chosen, ".ddsl", "rcdeploy", ["stop"], "Stop"),
+  "robocomp.generate": (chosen) => onFile(chosen, { ".cdsl": "component", ".bdsl": "bridge" }, "rcgen", "Generate"),
+  "robocomp.deploy": (chosen) => onFile(chosen, { ".ddsl": "up" }, "rcdeploy", "Deploy"),
+  "robocomp.stop": (chosen) => onFile(chosen, { ".ddsl": "stop" }, "rcdeploy", "Stop"),
   "robocomp.check": checkWorkspace,
 };
 
+/** Run the command of `program` that belongs to the suffix of the file. */
 async function onFile(
   chosen: vscode.Uri | undefined,
-  suffix: string,
+  commands: Readonly<Record<string, string>>,
   program: string,
-  words: readonly string[],
   title: string,
 ): Promise<void> {
   const file = chosen ?? vscode.window.activeTextEditor?.document.uri;
-  if (file?.scheme !== "file" || path.extname(file.fsPath).toLowerCase() !== suffix) {
-    void vscode.window.showErrorMessage(`RoboComp: ${title} needs a ${suffix} file: open one, or choose it in the explorer.`);
+  const command = file?.scheme === "file" ? commands[path.extname(file.fsPath).toLowerCase()] : undefined;
+  if (file === undefined || command === undefined) {
+    const suffixes = Object.keys(commands).join(" or ");
+    void vscode.window.showErrorMessage(`RoboComp: ${title} needs a ${suffixes} file: open one, or choose it in the explorer.`);
     return;
   }
   if (!(await saved())) {
     return;
   }
   const name = path.basename(file.fsPath);
-  await run(program, [...words, file.fsPath], path.dirname(file.fsPath), `${title} ${name}`);
+  await run(program, [command, file.fsPath], path.dirname(file.fsPath), `${title} ${name}`);
 }
 
 async function checkWorkspace(): Promise<void> {

@@ -18,6 +18,7 @@ from robocomp_dsl.model.bridge_values import (
     Selected,
     Sliced,
 )
+from robocomp_dsl.model.interface import Module
 from robocomp_dsl.source import Span
 
 
@@ -29,7 +30,8 @@ class BridgeContext:
     """The declarations of one bridge while they are resolved.
 
     A name whose value is None is declared, but faulty: what uses it gives no further finding.
-    `is_complete`: the file has no syntax errors, so an unknown name is an error of its own.
+    `further_modules` are those that the types of actions need besides the imports. `is_complete`:
+    the file has no syntax errors, so an unknown name is an error of its own.
     """
 
     def __init__(
@@ -52,6 +54,7 @@ class BridgeContext:
         self.hubs: dict[str, BridgeHub | None] = {}
         self.used_names: set[str] = set()
         self.port_names: set[str] = set()
+        self.further_modules: list[Module] = []
         self._stated: dict[int, Expression] = {}
 
     def fail(

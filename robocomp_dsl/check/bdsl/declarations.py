@@ -42,16 +42,19 @@ class _Named(Protocol):
     def name(self) -> Name: ...
 
 
-def check_names(items: Iterable[_Named], context: BridgeContext) -> set[int]:
+def check_names(
+    items: Iterable[_Named], context: BridgeContext, reserved: tuple[str, ...] = ()
+) -> set[int]:
     """Report reserved and duplicate names; the `id` of the other items.
 
-    Names are compared without case: ports become attributes with lower-case names.
+    `reserved` are reserved in addition to those of every bridge. Names are compared without case:
+    ports become attributes with lower-case names.
     """
     first: dict[str, Name] = {}
     valid: set[int] = set()
     for item in items:
         word = item.name.text.lower()
-        if word in RESERVED:
+        if word in RESERVED or word in reserved:
             context.report.add(
                 codes.RESERVED_BRIDGE_NAME,
                 item.name.span,
@@ -71,8 +74,11 @@ def resolve_input(tree: ast.Input, context: BridgeContext) -> BridgeInput | None
     if used is None:
         return None
     port = bridge_port(PortKind.INPUT, tree.name, tree.place, used, context, tree.qos)
-    if port is None:
-        return None
+    return input_of(tree, port, context) if port else None
+
+
+def input_of(tree: ast.Input, port: BridgePort, context: BridgeContext) -> BridgeInput:
+    """The input of a resolved port."""
     params = port.operation.inputs
     type_ = params[0].type if len(params) == 1 else None
     groups = ItemsType(tuple(ItemGroup(param.type, param.unit) for param in params))
@@ -104,7 +110,7 @@ def _stamp_path(
         context.report.add(
             value_codes.TIME_TYPE,
             path.span,
-            f"`{path.text}` is no field of a message with several fields",
+            f"`stamp {path.text}` needs a message with fields, as the only parameter",
             help="leave out `stamp`, and use the value in the output",
         )
         return ()

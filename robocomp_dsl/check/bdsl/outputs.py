@@ -18,7 +18,7 @@ from robocomp_dsl.check.bdsl.operations import (
     used_operation,
 )
 from robocomp_dsl.check.bdsl.ports import bridge_port
-from robocomp_dsl.check.bdsl.scopes import BridgeScope
+from robocomp_dsl.check.bdsl.scopes import Scope
 from robocomp_dsl.check.bdsl.target import ValueTarget
 from robocomp_dsl.check.bdsl.type_refs import UnitType
 from robocomp_dsl.check.bdsl.types_module import camel_case
@@ -43,16 +43,12 @@ MAX_RATE = 10_000.0
 
 
 def resolve_output(
-    tree: ast.Output, default_rate: float | None, scope: BridgeScope
+    tree: ast.Output, default_rate: float | None, scope: Scope
 ) -> BridgeOutput | None:
     """An output; None if it is faulty."""
     context = scope.context
     rate_hz = rate_of(tree.rate, context) if tree.rate else default_rate
-    if tree.type is None:
-        resolved = _untyped(tree, scope)
-    else:
-        used = used_operation(PortKind.OUTPUT, tree.name, tree.type, context)
-        resolved = (used, _arguments(tree, used.operation.inputs, scope)) if used else None
+    resolved = message_of(tree, scope)
     if resolved is None:
         return None
     used, arguments = resolved
@@ -62,6 +58,16 @@ def resolve_output(
     uses = expression_use(arguments)
     _check_trigger(tree, rate_hz, uses, context)
     return BridgeOutput(tree.name.text, port, rate_hz, arguments, uses, tree.doc)
+
+
+def message_of(
+    tree: ast.Output, scope: Scope
+) -> tuple[UsedOperation, tuple[BuiltValue, ...] | None] | None:
+    """The operation of an output and its arguments, None if these are faulty; or None."""
+    if tree.type is None:
+        return _untyped(tree, scope)
+    used = used_operation(PortKind.OUTPUT, tree.name, tree.type, scope.context)
+    return (used, _arguments(tree, used.operation.inputs, scope)) if used else None
 
 
 def rate_of(rate: ast.Rate | None, context: BridgeContext) -> float | None:
@@ -114,7 +120,7 @@ def _check_trigger(
 
 
 def _arguments(
-    tree: ast.Output, params: tuple[Param, ...], scope: BridgeScope
+    tree: ast.Output, params: tuple[Param, ...], scope: Scope
 ) -> tuple[BuiltValue, ...] | None:
     """The values of the parameters of a typed output."""
     items = [field for field in tree.fields if isinstance(field, ast.Item)]
@@ -135,7 +141,7 @@ def _arguments(
 
 
 def _whole(
-    tree: ast.Output, value: ast.Expression, params: tuple[Param, ...], scope: BridgeScope
+    tree: ast.Output, value: ast.Expression, params: tuple[Param, ...], scope: Scope
 ) -> Expression | None:
     """`= value` of an output with one parameter."""
     if len(params) == 1:
@@ -177,7 +183,7 @@ def _report_empty(tree: ast.Output, params: tuple[Param, ...], context: BridgeCo
 
 
 def _untyped(
-    tree: ast.Output, scope: BridgeScope
+    tree: ast.Output, scope: Scope
 ) -> tuple[UsedOperation, tuple[BuiltValue, ...] | None] | None:
     """An output without a type: that of its items, or of its value."""
     context = scope.context
@@ -212,7 +218,7 @@ def _untyped(
 
 
 def _of_value(
-    tree: ast.Output, node: ast.Expression, scope: BridgeScope
+    tree: ast.Output, node: ast.Expression, scope: Scope
 ) -> tuple[UsedOperation, tuple[BuiltValue, ...] | None] | None:
     context = scope.context
     try:

@@ -7,7 +7,9 @@ the errors of the files that it imports.
 from __future__ import annotations
 
 import re
+from typing import TypeAlias
 
+from robocomp_dsl.check.bdsl.actions import resolve_action
 from robocomp_dsl.check.bdsl.addresses import check_addresses
 from robocomp_dsl.check.bdsl.context import BridgeContext
 from robocomp_dsl.check.bdsl.declarations import check_names, resolve_function, resolve_input
@@ -26,6 +28,8 @@ from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.model.component import Role
 from robocomp_dsl.syntax.ast import bdsl as ast
 
+_Declaration: TypeAlias = ast.Input | ast.Function | ast.Hub | ast.Output | ast.Service
+
 
 def resolve_bdsl(
     file: Parsed[ast.File], tree: ast.Bridge, workspace: Workspace, report: Report
@@ -39,9 +43,7 @@ def resolve_bdsl(
     context = BridgeContext(scope, types, workspace, report, is_complete=file.tree.complete)
     written = find_middleware(tree.middleware, workspace.middlewares, report)
     context.middleware = written or DEFAULT
-    valid = check_names(
-        (*tree.inputs, *tree.functions, *tree.hubs, *tree.outputs, *tree.services), context
-    )
+    valid = check_names([*_named(tree), *tree.actions], context)
     for ports in (tree.inputs, tree.outputs, tree.services):
         context.port_names.update(port.name.text.lower() for port in ports)
     _declare(tree, valid, context)
@@ -51,18 +53,21 @@ def resolve_bdsl(
     rate_hz = rate_of(tree.rate, context)
     outputs = [resolve_output(output, rate_hz, names) for output in tree.outputs]
     services = [resolve_service(service, context) for service in tree.services]
+    actions = [resolve_action(action, context) for action in tree.actions]
     inputs = tuple(source for source in context.inputs.values() if source)
+    modules = (*scope.direct, *context.further_modules)
     bridge = Bridge(
         name=tree.name.text,
         path=path,
         span=tree.name.span,
         modules=scope.direct,
-        types=types.module(scope.direct, f"Types and topics of the bridge {tree.name.text}."),
+        types=types.module(modules, f"Types and topics of the bridge {tree.name.text}."),
         inputs=inputs,
         functions=tuple(function for function in context.functions.values() if function),
         hubs=resolved_hubs,
         outputs=tuple(output for output in outputs if output),
         services=tuple(service for service in services if service),
+        actions=tuple(action for action in actions if action),
         middleware=context.middleware,
         doc=tree.doc,
     )
@@ -77,6 +82,10 @@ def resolve_bdsl(
     return bridge
 
 
+def _named(tree: ast.Bridge) -> tuple[_Declaration, ...]:
+    return (*tree.inputs, *tree.functions, *tree.hubs, *tree.outputs, *tree.services)
+
+
 def _declare(tree: ast.Bridge, valid: set[int], context: BridgeContext) -> None:
     """Resolve inputs and functions; a duplicate name keeps its first declaration."""
     for source in tree.inputs:
@@ -89,12 +98,12 @@ def _declare(tree: ast.Bridge, valid: set[int], context: BridgeContext) -> None:
 
 def _check_content(tree: ast.Bridge, context: BridgeContext) -> None:
     """Report a bridge that does nothing, and declarations that nothing uses."""
-    if not tree.outputs and not tree.services:
+    if not tree.outputs and not tree.services and not tree.actions:
         context.report.add(
             codes.EMPTY_BRIDGE,
             tree.name.span,
             f"the bridge `{tree.name.text}` sends nothing",
-            help="add an `output` or a `service`",
+            help="add an `output`, a `service` or an `action`",
         )
         return
     # What a faulty statement names is not called unused.
@@ -116,8 +125,9 @@ def _check_content(tree: ast.Bridge, context: BridgeContext) -> None:
 
 
 def _mentioned(tree: ast.Bridge) -> set[str]:
-    """The words in the bodies of outputs, and in the values of outputs and hubs."""
-    parts = [value.span for hub in tree.hubs for value in hub.values]
+    """The words in actions, in the bodies of outputs, and in the values of outputs and hubs."""
+    parts = [action.span for action in tree.actions]
+    parts += [value.span for hub in tree.hubs for value in hub.values]
     for output in tree.outputs:
         parts += [each.span for each in (output.value, *output.fields) if each is not None]
     return {word for part in parts for word in re.findall(r"\w+", part.text)}

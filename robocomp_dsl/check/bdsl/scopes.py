@@ -6,7 +6,7 @@ In: a name, or a name and a member of it. Out: a typed expression, or a finding.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from typing import NoReturn, TypeVar
+from typing import NoReturn, Protocol, TypeVar
 
 from robocomp_dsl.check.bdsl.context import BridgeContext, FaultyExpression
 from robocomp_dsl.check.bdsl.items import joined_item_type, length_of
@@ -63,8 +63,7 @@ class BridgeScope:
         if word not in self.names():
             self._reject(name)
         if word in self.context.inputs:
-            source = _declared(self.context.inputs[word])
-            return _whole(span, source.parameters, _input_value(source))
+            return input_value(span, _declared(self.context.inputs[word]))
         if word in self.context.hubs:
             hub = _declared(self._find_hub(name))
             length = hub.type.count if hub.length is None else hub.length
@@ -83,7 +82,7 @@ class BridgeScope:
         if source is None:
             return None
         self.context.used_names.add(name.text)
-        return _member(member, source.parameters, _input_value(source), self.context)
+        return input_member(member, source, self.context)
 
     def input(self, name: Name) -> BridgeInput:
         """The input called `name`, for its time stamp. Raises `FaultyExpression`."""
@@ -154,7 +153,22 @@ class ServiceScope:
         self.context.fail(codes.UNKNOWN_BRIDGE_NAME, name.span, message)
 
 
-Scope = BridgeScope | ServiceScope
+class Scope(Protocol):
+    """The names of one place."""
+
+    context: BridgeContext
+
+    def names(self) -> list[str]:
+        """All names, for suggestions."""
+
+    def value(self, name: Name) -> Expression:
+        """What `name` stands for. Raises `FaultyExpression`."""
+
+    def member(self, name: Name, member: Name) -> Expression | None:
+        """The parameter `member` of `name`; None if it can only be a field of its value."""
+
+    def input(self, name: Name) -> BridgeInput:
+        """The input called `name`, for its time stamp. Raises `FaultyExpression`."""
 
 
 def reply_parameters(operation: Operation) -> tuple[Param, ...]:
@@ -224,6 +238,16 @@ def _member(
 
 def _now_or_counter(word: str, span: Span) -> Expression:
     return Now(span, TIME, "", None) if word == "now" else Counter(span, LONG, "", None)
+
+
+def input_value(span: Span, source: BridgeInput) -> Expression:
+    """The newest message of an input."""
+    return _whole(span, source.parameters, _input_value(source))
+
+
+def input_member(member: Name, source: BridgeInput, context: BridgeContext) -> Expression | None:
+    """The parameter `member` of the newest message of an input."""
+    return _member(member, source.parameters, _input_value(source), context)
 
 
 def _input_value(source: BridgeInput) -> ParamValue:

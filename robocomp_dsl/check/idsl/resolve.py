@@ -6,6 +6,7 @@ out; declarations that depend on them are left out without a further diagnostic.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -296,8 +297,12 @@ class _Resolver:
 
 
 def _ros_definition(tree: ast.Struct) -> str:
-    """The statements of a ROS definition as written, if its md5 does not follow from its fields."""
+    """The statements of a ROS definition, if its md5 does not follow from its fields.
+
+    A `#` in a constant of type string belongs to its value.
+    """
     lines = [line.strip() for line in tree.span.text.splitlines()] if tree.ros_name else []
-    statements = [line for line in lines if line and not line.startswith(("#", "---"))]
-    needs_text = tree.constants or any(line.startswith("char") for line in statements)
+    texts = [x if re.match(r"string\s+\w+\s*=", x) else x.split("#")[0].strip() for x in lines]
+    statements = [text for text in texts if text and not text.startswith("---")]
+    needs_text = tree.constants or any(text.startswith("char") for text in statements)
     return "\n".join(statements) if needs_text else ""

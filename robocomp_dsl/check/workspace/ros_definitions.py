@@ -3,7 +3,8 @@
 In: the path in an import and the importing file. Out: an existing file, in this order: beside the
 importing file (a ROS definition: in the folder of its package's neighbours), the folder of the
 checked file, the import folders, the folders in AMENT_PREFIX_PATH and ROS_PACKAGE_PATH, the shipped
-interfaces, and the definitions that the library rosbags contains, if it is installed.
+interfaces, and the definitions that the library rosbags contains, if it is installed. The messages
+of an action are found by its definition if ROS did not generate them.
 """
 
 from __future__ import annotations
@@ -13,7 +14,8 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-from robocomp_dsl.check.workspace.source_cache import SourceCache
+from robocomp_dsl.check.workspace.ros_action_messages import action_message
+from robocomp_dsl.check.workspace.source_cache import SourceCache, is_regular_file
 from robocomp_dsl.diagnostics import nearest
 from robocomp_dsl.syntax.ros.kinds import ROS_SUFFIXES
 
@@ -70,11 +72,19 @@ class RosDefinitions:
         name = canonical_name(written)
         if not name:
             return None
-        for folder in self.search_path(beside, root):
+        folders = self.search_path(beside, root)
+        found = self._find(name, folders, is_real=True)
+        if found is None:
+            action = action_message(name, lambda other: self._find(other, folders), self._files)
+            found = action or self._find(name, folders)
+        return found or _stored(name, self._files)
+
+    def _find(self, name: str, folders: list[Path], *, is_real: bool = False) -> Path | None:
+        for folder in folders:
             for path in _candidates(folder, name):
-                if self._files.exists(path):
+                if is_regular_file(path) if is_real else self._files.exists(path):
                     return path
-        return _stored(name, self._files)
+        return None
 
     def importable(self, beside: Path, root: Path) -> list[str]:
         """The names of all definitions, for completion and suggestions."""

@@ -65,7 +65,7 @@ class SourceCache:
 
     def exists(self, path: Path) -> bool:
         """Whether there is an overlay, a regular file or a virtual file at `path`."""
-        if _is_file(path):
+        if is_regular_file(path):
             return True
         if not self._overlays and not self._virtual:
             return False
@@ -119,7 +119,8 @@ def _stamp(path: Path) -> _Stamp | None:
     return (found.st_mtime_ns, found.st_size, found.st_ino) if S_ISREG(found.st_mode) else None
 
 
-def _is_file(path: Path) -> bool:
+def is_regular_file(path: Path) -> bool:
+    """Whether there is a regular file at `path` on the disk."""
     try:
         return path.is_file()
     except OSError:  # name too long, folder not accessible

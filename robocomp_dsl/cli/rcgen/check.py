@@ -42,7 +42,7 @@ def command(
     quiet: bool,
     folders: tuple[Path, ...],
 ) -> None:
-    """Check IDSL, CDSL, PDSL, DDSL, SMDSL, SCXML and InnerModel files, also of whole folders.
+    """Check files of all languages, also of whole folders.
 
     The exit code is 1 if there are errors, else 0; warnings do not count.
     """

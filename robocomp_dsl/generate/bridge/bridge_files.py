@@ -99,6 +99,7 @@ def _rows(bridge: Bridge) -> Iterator[tuple[str, str, str]]:
         ("input", [(i.name, i.port) for i in bridge.inputs]),
         ("output", [(o.name, o.port) for o in bridge.outputs]),
         ("service", [(s.name, s.port) for s in bridge.services]),
+        ("action", [(p.name, p) for action in bridge.actions for p in action.ports]),
         ("call", [(c.name, c.port) for s in bridge.services for c in s.calls]),
     )
     for kind, ports in kinds:

@@ -49,6 +49,7 @@ class BridgeNames:
             *(item.name for item in bridge.inputs),
             *(hub.name for hub in bridge.hubs),
             *(function.name for function in bridge.functions),
+            *(item.name for action in bridge.actions for item in action.inputs),
             *(call.name for service in bridge.services for call in service.calls),
         ]
         reserved = LOCAL | names.BUILTINS | names.MODULE | set(types.values())

@@ -23,6 +23,8 @@ from robocomp_dsl.record import ValueRecord
 
 FOLDER = "python/bridge/"
 MAX_RATE_HZ = 10_000
+STATUS_RATE_HZ = 5.0
+"""How often an action publishes the status of its goals."""
 
 
 class DescriptionCode(ValueRecord):
@@ -96,6 +98,7 @@ def comment_text(doc: str) -> str:
 def period_of(bridge: Bridge) -> int:
     """The period of the component in ms; 0: all outputs are sent on events."""
     rates = [output.rate_hz for output in bridge.outputs if output.rate_hz]
+    rates += [STATUS_RATE_HZ] if bridge.actions else []
     return max(int(1000 / max(rates)), 1) if rates else 0
 
 

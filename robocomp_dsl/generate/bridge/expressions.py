@@ -18,6 +18,7 @@ from robocomp_dsl.generate.bridge.bridge_names import (
 )
 from robocomp_dsl.generate.literals import python_value, quoted
 from robocomp_dsl.model import bridge_values as bv
+from robocomp_dsl.model.bridge_actions import Compared
 from robocomp_dsl.model.bridge_ports import ItemsType, TimeType
 from robocomp_dsl.model.types import DOUBLE, FLOAT, NUMBERS, Enum, Primitive, Sequence, Struct
 
@@ -137,6 +138,13 @@ class ExpressionPrinter:
             return f"({text} / 1_000_000_000)"
         return text
 
+    def _compared(self, node: Compared) -> str:
+        left, right = node.left, node.right
+        if isinstance(right, bv.ConstantValue) and isinstance(right.value, bool):
+            is_same = right.value == (node.operator == "==")
+            return self.text(left) if is_same else f"(not {self.text(left)})"
+        return f"({self.text(left)} {node.operator} {self.text(right)})"
+
     def _converted(self, node: bv.Converted) -> str:
         text = self.text(node.value)
         if node.factor != 1:
@@ -251,5 +259,6 @@ _PRINTERS: dict[type[bv.Expression], Callable[[ExpressionPrinter, Any], str]] = 
     bv.Counter: lambda _printer, _node: "at.counter",
     bv.Cast: ExpressionPrinter._cast,
     bv.TimeIn: ExpressionPrinter._time_in,
+    Compared: ExpressionPrinter._compared,
     bv.StructOf: ExpressionPrinter._struct,
 }

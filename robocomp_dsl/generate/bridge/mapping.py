@@ -7,8 +7,9 @@ template's renderer breaks long ones.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
+from robocomp_dsl.generate.bridge.action_functions import action_functions
 from robocomp_dsl.generate.bridge.bridge_names import (
     BridgeNames,
     array_annotation,
@@ -17,30 +18,22 @@ from robocomp_dsl.generate.bridge.bridge_names import (
 from robocomp_dsl.generate.bridge.built_values import BuiltLines, value_lines
 from robocomp_dsl.generate.bridge.expressions import ExpressionPrinter
 from robocomp_dsl.generate.bridge.places import place
+from robocomp_dsl.generate.bridge.received_messages import (
+    CONTEXT,
+    MappingFunction,
+    annotation_of,
+    check_function,
+    input_locals,
+    own_checks,
+    stamp_function,
+)
 from robocomp_dsl.generate.literals import printable, quoted
 from robocomp_dsl.generate.names import unique
 from robocomp_dsl.model.bridge import Bridge, BridgeOutput, BridgeService
-from robocomp_dsl.model.bridge_ports import BridgeInput, LengthCheck
 from robocomp_dsl.model.bridge_values import BridgeHub, Expression, ListExpression
 from robocomp_dsl.model.interface import Operation, Param
-from robocomp_dsl.model.types import Field, Struct, Type
-from robocomp_dsl.model.types import Sequence as SequenceType
-from robocomp_dsl.model.units import parse_unit
+from robocomp_dsl.model.types import Type
 from robocomp_dsl.record import ValueRecord
-
-_CONTEXT = ("at: MessageContext", "user: BridgeWorker")
-_NANOSECONDS = 1_000_000_000
-
-
-class MappingFunction(ValueRecord):
-    """One function; `places` has the place of each assigned field of the message by its path."""
-
-    name: str
-    parameters: str
-    returns: str
-    doc: str
-    lines: tuple[str, ...]
-    places: tuple[tuple[str, str], ...] = ()
 
 
 class MappingCode(ValueRecord):
@@ -78,51 +71,19 @@ def mapping_code(bridge: Bridge, names: BridgeNames) -> MappingCode:
 
 
 def _functions(bridge: Bridge, names: BridgeNames) -> Iterator[MappingFunction]:
-    for item in bridge.inputs:
+    for item in bridge.received:
         if own_checks(item):
-            yield _check(item, names)
+            yield check_function(item, names)
         if item.stamp_path:
-            yield _stamp(item, names)
+            yield stamp_function(item, names)
     for hub in bridge.hubs:
         yield _hub(hub, names)
     for output in bridge.outputs:
         yield _output(output, names)
     for service in bridge.services:
         yield _service(service, names)
-
-
-def input_locals(
-    inputs: Iterable[BridgeInput], names: BridgeNames
-) -> tuple[dict[tuple[str, str], str], list[str]]:
-    """The local names of the parameters of inputs, and the lines that unpack several of them."""
-    found: dict[tuple[str, str], str] = {}
-    lines = []
-    for item in inputs:
-        variable = names.variables[item.name]
-        parameters = item.parameters
-        if len(parameters) == 1:
-            found[item.name, parameters[0].name] = variable
-            continue
-        parts = [f"{variable}_{parameter.name}" for parameter in parameters]
-        found |= {(item.name, p.name): part for p, part in zip(parameters, parts, strict=True)}
-        lines.append(f"{', '.join(parts)} = {variable}")
-    return found, lines
-
-
-def own_checks(item: BridgeInput) -> tuple[LengthCheck, ...]:
-    """The lengths that the bridge declares; a codec checks those of ROS definitions."""
-    return tuple(check for check in item.length_checks if not _is_fixed_array(check))
-
-
-def _is_fixed_array(check: LengthCheck) -> bool:
-    type_ = check.path[-1].type if check.path else None
-    return isinstance(type_, SequenceType) and type_.is_anonymous
-
-
-def annotation_of(item: BridgeInput, names: BridgeNames) -> str:
-    """The annotation of the value of an input."""
-    kinds = [names.annotation(parameter.type) for parameter in item.parameters]
-    return kinds[0] if len(kinds) == 1 else f"tuple[{', '.join(kinds) or '()'}]"
+    for action in bridge.actions:
+        yield from action_functions(action, names)
 
 
 def _hub(hub: BridgeHub, names: BridgeNames) -> MappingFunction:
@@ -161,7 +122,7 @@ def _output(output: BridgeOutput, names: BridgeNames) -> MappingFunction:
     uses = output.uses
     local_names, unpack = input_locals(uses.inputs, names)
     printer = ExpressionPrinter(names, local_names)
-    parameters = list(_CONTEXT)
+    parameters = list(CONTEXT)
     lines = []
     for item in uses.inputs:
         variable = names.variables[item.name]
@@ -243,7 +204,7 @@ def _service(service: BridgeService, names: BridgeNames) -> MappingFunction:
     several = f"tuple[{', '.join(kinds)}]" if len(kinds) > 1 else "None"
     return MappingFunction(
         f"service_{service.name}",
-        ", ".join((*_CONTEXT, *parameters)),
+        ", ".join((*CONTEXT, *parameters)),
         kinds[0] if len(kinds) == 1 else several,
         f"The reply of the service `{service.name}` ({place(service.port.span)}).",
         tuple(lines) or ("return None",),
@@ -255,49 +216,3 @@ def _results(operation: Operation) -> list[tuple[str, Type]]:
     """The results of a call by name: its result, then its out parameters."""
     outputs = [(p.name, p.type) for p in operation.outputs]
     return [*([("result", operation.result)] if operation.result is not None else []), *outputs]
-
-
-def _check(item: BridgeInput, names: BridgeNames) -> MappingFunction:
-    first = "message" if len(item.parameters) == 1 else "message[0]"
-    lines = []
-    for check in own_checks(item):
-        path = _path(first, item.parameters[0].type, check.path, names)
-        lines.append(f"values.with_length({path}, {check.length}, {check.length})")
-    return MappingFunction(
-        f"check_{item.name}",
-        f"message: {annotation_of(item, names)}",
-        "None",
-        f"Check the lengths of a message of the input `{item.name}` ({place(item.port.span)}).",
-        tuple(lines),
-    )
-
-
-def _stamp(item: BridgeInput, names: BridgeNames) -> MappingFunction:
-    first, path, type_ = "message", item.stamp_path, item.parameters[0].type
-    if len(item.parameters) > 1:
-        index = next(i for i, p in enumerate(item.parameters) if p.name == path[0].name)
-        first, type_ = f"message[{index}]", item.parameters[index].type
-        path = path[1:]
-    text = _path(first, type_, path, names)
-    last = item.stamp_path[-1]
-    if isinstance(last.type, Struct):
-        second, part = (names.field(last.type, f) for f in last.type.fields[:2])
-        result = f"{text}.{second} * {_NANOSECONDS:_} + {text}.{part}"
-    else:
-        factor = float(parse_unit(last.unit or "s").factor) * _NANOSECONDS
-        result = f"values.nanoseconds_of({text}, {factor:_.0f})"
-    return MappingFunction(
-        f"stamp_{item.name}",
-        f"message: {annotation_of(item, names)}",
-        "int",
-        f"The time stamp of a message of the input `{item.name}` [ns] ({place(item.port.span)}).",
-        (f"return {result}",),
-    )
-
-
-def _path(start: str, type_: Type, path: Sequence[Field], names: BridgeNames) -> str:
-    text = start
-    for field in path:
-        text += f".{names.field(type_, field)}"
-        type_ = field.type
-    return text

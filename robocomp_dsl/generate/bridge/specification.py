@@ -8,8 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from robocomp_dsl.generate import literals, names
+from robocomp_dsl.generate.bridge.action_code import action_code
 from robocomp_dsl.generate.bridge.bridge_names import BridgeNames
-from robocomp_dsl.generate.bridge.mapping import MappingCode, own_checks
+from robocomp_dsl.generate.bridge.mapping import MappingCode
 from robocomp_dsl.generate.bridge.methods import (
     BridgeMethod,
     function_method,
@@ -17,7 +18,8 @@ from robocomp_dsl.generate.bridge.methods import (
     parameter_hooks,
     service_method,
 )
-from robocomp_dsl.generate.bridge.places import place
+from robocomp_dsl.generate.bridge.places import place, places_text, tuple_text
+from robocomp_dsl.generate.bridge.received_messages import own_checks
 from robocomp_dsl.generate.bridge.wiring import BridgeWiring
 from robocomp_dsl.generate.literals import python_value, quoted
 from robocomp_dsl.generate.python.layout import INNER
@@ -45,6 +47,7 @@ class SpecificationCode(ValueRecord):
     hubs: tuple[str, ...]
     outputs: tuple[str, ...]
     services: tuple[str, ...]
+    actions: tuple[str, ...]
     spec: str
     publish: str
     settings: tuple[str, ...]
@@ -63,23 +66,27 @@ def specification_code(
     stamped = set(_stamped(bridge))
     groups = _group_attributes(bridge)
     methods = [
-        *(handler_method(item, bridge_names) for item in bridge.inputs),
+        *(handler_method(item, bridge_names) for item in bridge.received),
         *(service_method(service, bridge_names) for service in bridge.services),
         *parameter_hooks(bridge, groups),
     ]
     functions = tuple(function_method(f, bridge_names) for f in bridge.functions)
-    inputs = tuple(_input(item, stamped) for item in bridge.inputs)
+    inputs = tuple(_input(item, stamped) for item in bridge.received)
     hubs = tuple(_hubs(bridge))
     outputs = tuple(_output(output, bridge_names, mapping) for output in bridge.outputs)
     services = tuple(_service(service, mapping) for service in bridge.services)
-    publish = ", ".join(
-        f"{quoted(o.name)}: self.{bridge_names.call(o.port)}" for o in bridge.outputs
-    )
+    actions = tuple(action_code(action, bridge_names, mapping) for action in bridge.actions)
+    sent = [(o.name, o.port) for o in bridge.outputs]
+    sent += [(p.name, p) for action in bridge.actions for p in action.sent]
+    publish = ", ".join(f"{quoted(name)}: self.{bridge_names.call(port)}" for name, port in sent)
     lists = {
         "InputSpec": inputs,
         "HubSpec": hubs,
         "OutputSpec": outputs,
         "ServiceSpec": services,
+        "ActionSpec": actions,
+        "ActionTopicSpec": actions,
+        "CommandSpec": actions,
     }
     return SpecificationCode(
         literals.printable(bridge.path.name),
@@ -91,6 +98,7 @@ def specification_code(
         hubs,
         outputs,
         services,
+        actions,
         _spec(wiring),
         f"{{{publish}}}",
         tuple(_settings(bridge, groups)),
@@ -105,7 +113,7 @@ def specification_code(
 def _spec(wiring: BridgeWiring) -> str:
     """The default connections that `GenericWorker` lacks; "" if there are none."""
     parts = [
-        f"{key}={_tuple(map(quoted, values))}"
+        f"{key}={tuple_text(map(quoted, values))}"
         for key, values in (
             ("connections", wiring.connections),
             ("addresses", wiring.addresses),
@@ -114,11 +122,6 @@ def _spec(wiring: BridgeWiring) -> str:
         if values
     ]
     return f"replace(GenericWorker.SPEC, {', '.join(parts)})" if parts else ""
-
-
-def _tuple(items: object) -> str:
-    rows = list(items)  # type: ignore[call-overload]
-    return f"({', '.join(rows)}{',' * (len(rows) == 1)})"
 
 
 def _stamped(bridge: Bridge) -> Iterator[str]:
@@ -177,7 +180,7 @@ def stamp_hub(item: BridgeInput) -> str:
 
 
 def _hub(hub: BridgeHub) -> str:
-    inputs = _tuple(quoted(item.name) for item in hub.inputs)
+    inputs = tuple_text(quoted(item.name) for item in hub.inputs)
     parts = [quoted(hub.name), inputs, quoted(place(hub.span))]
     if hub.policy is not HubPolicy.LATEST:
         parts.append(quoted(hub.policy.value))
@@ -188,7 +191,7 @@ def _hub(hub: BridgeHub) -> str:
 
 def _output(output: BridgeOutput, bridge_names: BridgeNames, mapping: MappingCode) -> str:
     port, uses = output.port, output.uses
-    hubs = _tuple(
+    hubs = tuple_text(
         quoted(name)
         for name in (
             *(item.name for item in uses.inputs),
@@ -199,20 +202,16 @@ def _output(output: BridgeOutput, bridge_names: BridgeNames, mapping: MappingCod
     function = mapping.function(f"output_{output.name}")
     del bridge_names
     parts = [*map(quoted, (output.name, port.name, port.operation.name)), hubs]
-    parts += [f"mapping.{function.name}", _places(function.places)]
+    parts += [f"mapping.{function.name}", places_text(function.places)]
     parts += [f"rate={python_value(float(output.rate_hz))}"] if output.rate_hz else []
     return f"OutputSpec({', '.join(parts)})"
-
-
-def _places(places: tuple[tuple[str, str], ...]) -> str:
-    return f"{{{', '.join(f'{quoted(path)}: {quoted(where)}' for path, where in places)}}}"
 
 
 def _service(service: BridgeService, mapping: MappingCode) -> str:
     port = service.port
     function = mapping.function(f"service_{service.name}")
     parts = [*map(quoted, (service.name, port.name, port.operation.name))]
-    parts += [f"mapping.{function.name}", _places(function.places)]
+    parts += [f"mapping.{function.name}", places_text(function.places)]
     return f"ServiceSpec({', '.join(parts)})"
 
 

@@ -141,7 +141,7 @@ def _struct(
 def _definition(struct: Struct | ExceptionType) -> str:
     """The text of a ROS definition as a literal; "" if the fields say everything."""
     text = struct.definition if isinstance(struct, Struct) else ""
-    return literals.quoted(text) if text else ""
+    return literals.python_string(text) if text else ""
 
 
 def _constants(struct: Struct | ExceptionType, attributes: Iterable[str]) -> Iterator[ConstantCode]:

@@ -20,8 +20,8 @@ from robocomp_dsl.syntax.ast import bdsl as ast
 from robocomp_dsl.syntax.ast.base import Name, QualifiedName
 from robocomp_dsl.syntax.grammar.lexer import Token
 
-_BLOCKS = ("BRIDGE", "INPUT", "HUB", "OUTPUT", "SERVICE", "CALL")
-_WITH_TYPES = ("INPUT", "OUTPUT", "SERVICE", "CALL", "FUNCTION")
+_BLOCKS = ("BRIDGE", "INPUT", "HUB", "OUTPUT", "SERVICE", "CALL", "ACTION", "COMMAND", "STATE")
+_WITH_TYPES = ("INPUT", "OUTPUT", "SERVICE", "CALL", "FUNCTION", "ACTION", "COMMAND", "STATE")
 _BEHIND_TYPE = frozenset(("OVER", "AT", "EQUAL"))
 _ARROW = "__ANON_0"
 
@@ -41,7 +41,7 @@ def is_type(context: CompletionContext) -> bool:
 def is_expression(context: CompletionContext) -> bool:
     """Whether an expression is expected, or a field of the value before the cursor."""
     kinds = [token.kind for token in context.statement]
-    return _in_list(context) or "EQUAL" in kinds or kinds[:1] == ["ITEM"]
+    return _in_list(context) or "EQUAL" in kinds or kinds[:1] == ["ITEM"] or "WHEN" in kinds
 
 
 def _in_list(context: CompletionContext) -> bool:
@@ -112,10 +112,12 @@ def _block_members(context: CompletionContext, names: BridgeDeclarations) -> Ite
     """The fields that the statements of the innermost block assign to."""
     written = _written_type(context)
     match context.block_kind:
-        case "OUTPUT":
+        case "OUTPUT" | "COMMAND":
             return names.declared.message(written)
         case "SERVICE":
             return names.declared.reply(written)
+        case "ACTION":
+            return names.declared.action_messages(written)
         case "CALL":
             return names.declared.request(written)
     return ()

@@ -25,8 +25,9 @@ from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.language_server.signatures.signatures_bdsl import format_function, value_text
 from robocomp_dsl.language_server.signatures.signatures_idsl import format_operation
 from robocomp_dsl.language_server.symbols.bridge_declarations import BridgeDeclarations
+from robocomp_dsl.language_server.symbols.bridge_occurrences import member_symbol
 from robocomp_dsl.language_server.symbols.bridge_types import BridgeMember
-from robocomp_dsl.language_server.symbols.symbols_bdsl import bridge_names, member_symbol
+from robocomp_dsl.language_server.symbols.symbols_bdsl import bridge_names
 from robocomp_dsl.model import types
 from robocomp_dsl.model.bridge import Bridge
 from robocomp_dsl.model.interface import Interface, Module
@@ -43,7 +44,7 @@ TIMES = {
     "now": "the time at which the message is sent",
     "counter": "the number of messages sent before, from 0",
 }
-_WITH_DURATION = frozenset(("POLICY", "MAX_AGE", "DEADLINE", "LIVELINESS"))
+_WITH_DURATION = frozenset(("TIMEOUT", "POLICY", "MAX_AGE", "DEADLINE", "LIVELINESS"))
 _FIXED = {"POLICY": POLICIES, "PRIORITY": PRIORITIES}
 """Keyword to the words that may follow it."""
 
@@ -114,15 +115,8 @@ def _values(context: CompletionContext, names: BridgeDeclarations) -> Iterator[C
     if context.previous_kind == "DOT":
         yield from _members(value_path_members(context, names, service))
         return
-    kind = lsp.CompletionItemKind.Variable
-    if service:
-        yield CompletionCandidate("request", kind, f"the request of {service}")
-        for call in names.call_trees(service):
-            yield CompletionCandidate(call, kind, "the reply of the call")
-    else:
-        for name, value in names.values().items():
-            detail = value_text(value.type, getattr(value, "unit", "")) if value else ""
-            yield CompletionCandidate(name, kind, detail)
+    for name, detail in _values_of(service, names):
+        yield CompletionCandidate(name, lsp.CompletionItemKind.Variable, detail)
     target = target_type(context, names)
     for enumerator in target.enumerators if isinstance(target, types.Enum) else ():
         kind = lsp.CompletionItemKind.EnumMember
@@ -137,9 +131,26 @@ def _values(context: CompletionContext, names: BridgeDeclarations) -> Iterator[C
     yield from value_candidates("true", "false")
 
 
+def _values_of(service: str, names: BridgeDeclarations) -> Iterator[tuple[str, str]]:
+    """The names of values with their details, in a service or action, or outside of both."""
+    action = names.action_tree(service) if service else None
+    if action:
+        yield "goal", f"the goal of {service}"
+        for state in action.states:
+            yield state.name.text, "the newest message of the state"
+    elif service:
+        yield "request", f"the request of {service}"
+        for call in names.call_trees(service):
+            yield call, "the reply of the call"
+    else:
+        for name, value in names.values().items():
+            yield name, value_text(value.type, getattr(value, "unit", "")) if value else ""
+
+
 def _service(context: CompletionContext) -> str:
-    """The name of the service around the cursor; empty in hubs and outputs."""
-    blocks = [block for block in context.blocks if block and block[0].kind == "SERVICE"]
+    """The name of the service or action around the cursor; empty in hubs and outputs."""
+    owners = ("SERVICE", "ACTION")
+    blocks = [block for block in context.blocks if block and block[0].kind in owners]
     return blocks[0][1].text if blocks and len(blocks[0]) > 1 else ""
 
 

@@ -1,6 +1,6 @@
-"""Code lenses: "generate component" above a component, and the uses of an interface above it.
+"""Code lenses: "generate component" above a component or bridge, and the uses of an interface.
 
-In: a CDSL or IDSL file. Out: lenses with commands.
+In: a CDSL, BDSL or IDSL file. Out: lenses with commands.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from robocomp_dsl.language_server.symbols.dependencies import interface_key, kno
 from robocomp_dsl.language_server.symbols.lookup import location_of
 from robocomp_dsl.model.component import Port, Role
 from robocomp_dsl.model.interface import Interface
-from robocomp_dsl.syntax.ast import cdsl
+from robocomp_dsl.syntax.ast import bdsl, cdsl
 
 _VERBS = {
     Role.IMPLEMENTS: ("implements", "implement"),
@@ -35,16 +35,21 @@ def code_lenses(session: Session, params: lsp.CodeLensParams) -> list[lsp.CodeLe
         case ".idsl":
             objects = [symbol.model_object for symbol in session.index(path).declarations()]
             return _of_interfaces(session, [o for o in objects if isinstance(o, Interface)])
-        case ".cdsl":
+        case ".cdsl" | ".bdsl":
             return _of_component(session, uri, session.parsed(path).tree)
     return []
 
 
 def _of_component(session: Session, uri: str, tree: object) -> list[lsp.CodeLens]:
-    if not isinstance(tree, cdsl.File) or tree.component is None:
-        return []
-    command = lsp.Command("generate component", GENERATE, arguments=[uri])
-    return [lsp.CodeLens(session.positions.range_of(tree.component.name.span), command)]
+    match tree:
+        case cdsl.File(component=cdsl.Component(name=name)):
+            title = "generate component"
+        case bdsl.File(bridge=bdsl.Bridge(name=name)):
+            title = "generate bridge"
+        case _:
+            return []
+    command = lsp.Command(title, GENERATE, arguments=[uri])
+    return [lsp.CodeLens(session.positions.range_of(name.span), command)]
 
 
 def _of_interfaces(session: Session, interfaces: list[Interface]) -> list[lsp.CodeLens]:

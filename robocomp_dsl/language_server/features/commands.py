@@ -41,7 +41,7 @@ class Client(Protocol):
 async def run_generation(session: Session, client: Client, *arguments: object) -> bool:
     """Generate a component and show the result. Raises `UnsupportedDocument`."""
     if len(arguments) != 1 or not isinstance(arguments[0], str):
-        raise UnsupportedDocument(f"`{GENERATE}` takes the URI of a CDSL file")
+        raise UnsupportedDocument(f"`{GENERATE}` takes the URI of a CDSL or BDSL file")
     result = await generate(session, session.path_of(arguments[0]))
     kind = lsp.MessageType.Info if result.succeeded else lsp.MessageType.Error
     client.window_show_message(lsp.ShowMessageParams(kind, result.message))

@@ -6,6 +6,7 @@ In: a tree. Out: a symbol for every named node, nested as the nodes are.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TypeAlias
 
 from lsprotocol import types as lsp
 
@@ -50,7 +51,12 @@ KINDS: dict[type, lsp.SymbolKind] = {
     bdsl.Output: lsp.SymbolKind.Property,
     bdsl.Service: lsp.SymbolKind.Method,
     bdsl.Call: lsp.SymbolKind.Method,
+    bdsl.Action: lsp.SymbolKind.Method,
+    bdsl.Command: lsp.SymbolKind.Property,
 }
+_BridgePortNode: TypeAlias = (
+    bdsl.Input | bdsl.Output | bdsl.Service | bdsl.Call | bdsl.Action | bdsl.Command
+)
 
 
 def document_symbols(
@@ -136,14 +142,14 @@ def _detail(node: Node) -> str:
             name = node.tag
         case smdsl.Substates(parallel=True):
             return "parallel"
-        case bdsl.Input() | bdsl.Output() | bdsl.Service() | bdsl.Call():
+        case _ if isinstance(node, _BridgePortNode):
             return _port_detail(node)
         case bdsl.Hub(policy=name):
             pass
     return name.text if name else ""
 
 
-def _port_detail(node: bdsl.Input | bdsl.Output | bdsl.Service | bdsl.Call) -> str:
+def _port_detail(node: _BridgePortNode) -> str:
     """The type and middleware of a port of a bridge."""
     over = f"over {node.place.middleware.text}" if node.place.middleware else ""
     type_text = " ".join(node.type.span.text.split()) if node.type else ""

@@ -1,7 +1,7 @@
-"""The command "generate component": runs `rcgen component` in a subprocess.
+"""The command that generates a component: runs `rcgen component` or `rcgen bridge`.
 
-In: a CDSL file. Out: whether files were generated, and a message. The server stays responsive; it
-kills the subprocess after a timeout, or when the client disconnects.
+In: a CDSL or BDSL file. Out: whether files were generated, and a message. The server stays
+responsive; it kills the subprocess after a timeout, or when the client disconnects.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from robocomp_dsl.source import Source, UnreadableSource
 
 RCGEN = (sys.executable, "-c", "from robocomp_dsl.cli.rcgen.main import main; main()")
 GENERATION_TIMEOUT_S = 120.0
+_COMMANDS = {".cdsl": "component", ".bdsl": "bridge"}
 MAX_MESSAGE_LINES = 5
 """Findings in one message; the editor shows all findings in the file."""
 
@@ -30,8 +31,10 @@ class GenerationResult:
 
 async def generate(session: Session, path: Path) -> GenerationResult:
     """Generate the component in the saved file at `path`. Raises `UnsupportedDocument`."""
-    if path.suffix.lower() != ".cdsl":
-        raise UnsupportedDocument(f"`{path.name}` is not a component: select a `.cdsl` file")
+    if path.suffix.lower() not in _COMMANDS:
+        raise UnsupportedDocument(
+            f"`{path.name}` is not a component: select a `.cdsl` or `.bdsl` file"
+        )
     unsaved = _unsaved(session, path)
     if unsaved:
         names = ", ".join(f"`{name}`" for name in unsaved)
@@ -58,7 +61,7 @@ def _differs(session: Session, path: Path) -> bool:
 
 async def _run(path: Path) -> GenerationResult:
     process = await asyncio.create_subprocess_exec(
-        *(*RCGEN, "component", path.name, "--format", "concise"),
+        *(*RCGEN, _COMMANDS[path.suffix.lower()], path.name, "--format", "concise"),
         cwd=path.parent,
         stdin=asyncio.subprocess.DEVNULL,
         stdout=asyncio.subprocess.PIPE,

@@ -44,6 +44,7 @@ TYPES = {
     "function": "function",
     "output": "property",
     "service": "method",
+    "action": "method",
     "call": "variable",
 }
 """Kind of symbol to the token type of the protocol."""

@@ -33,6 +33,7 @@ KINDS = {
     "function": lsp.SymbolKind.Function,
     "output": lsp.SymbolKind.Property,
     "service": lsp.SymbolKind.Method,
+    "action": lsp.SymbolKind.Method,
 }
 """The kinds that are listed; fields and parameters appear only in the outline of their file."""
 

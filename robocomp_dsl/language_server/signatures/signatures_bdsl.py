@@ -9,6 +9,7 @@ from robocomp_dsl.language_server.signatures.signatures_block import format_bloc
 from robocomp_dsl.language_server.signatures.signatures_idsl import referenced_signature, type_name
 from robocomp_dsl.model import types
 from robocomp_dsl.model.bridge import Bridge, BridgeOutput, BridgeService
+from robocomp_dsl.model.bridge_actions import BridgeAction
 from robocomp_dsl.model.bridge_ports import (
     BridgeFunction,
     BridgeInput,
@@ -117,6 +118,17 @@ def _service(service: BridgeService) -> str:
     return _operation_port("service", service.name, service.port)
 
 
+def _action(action: BridgeAction) -> str:
+    message = action.goal.type
+    if not isinstance(message, types.Struct):
+        return f"action {action.name}"
+    name = message.name.removesuffix("ActionGoal")
+    address = action.goal.port.address.removesuffix("/goal")
+    head = f'action {action.name} : {name} over {action.goal.port.middleware} at "{address}"'
+    goal = next((f.type for f in message.fields if f.name == "goal"), None)
+    return head + (f"\n{referenced_signature(goal)}" if goal else "")
+
+
 def _call(call: BridgeCall) -> str:
     return _operation_port("call", call.name, call.port)
 
@@ -135,5 +147,6 @@ SIGNATURES: dict[type, Callable[[Any], str]] = {
     BridgeFunction: format_function,
     BridgeOutput: _output,
     BridgeService: _service,
+    BridgeAction: _action,
     BridgeCall: _call,
 }

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 
 from robocomp_dsl.language_server.symbols.bridge_types import DeclaredTypes, element_of, member_of
 from robocomp_dsl.model.bridge import Bridge, BridgeOutput, BridgeService
+from robocomp_dsl.model.bridge_actions import BridgeAction
 from robocomp_dsl.model.bridge_ports import BridgeFunction, BridgeInput
 from robocomp_dsl.model.bridge_values import BridgeCall, BridgeHub, Expression
 from robocomp_dsl.syntax.ast import bdsl as ast
@@ -59,12 +60,21 @@ class BridgeDeclarations:
         return {call.name.text: call for call in own.calls} if own else {}
 
     def root(self, name: str, service: str = "") -> object:
-        """What a name in an expression stands for; None if it is unknown or has no fields."""
+        """What a name in an expression stands for; None if it is unknown or has no fields.
+
+        `service` is the service or action that contains the expression.
+        """
         if not service:
             model = self.values().get(name)
             trees = (i for tree in self._trees for i in tree.inputs if i.name.text == name)
             written = next(trees, None)
             return model or (self.declared.message(written.type) if written else None)
+        action = self.action_tree(service)
+        if action:
+            if name == "goal":
+                return self.declared.action_part(action.type, "Goal")
+            state = next((s for s in action.states if s.name.text == name), None)
+            return self.declared.message(state.type) if state else None
         own = self._service_tree(service)
         if name == "request":
             return self.declared.request(own.type) if own else None
@@ -84,6 +94,15 @@ class BridgeDeclarations:
                 return element_of(selected) if len(indices) == 1 else selected
         return None
 
+    def action_tree(self, name: str) -> ast.Action | None:
+        """The action called `name`."""
+        actions = (a for tree in self._trees for a in tree.actions if a.name.text == name)
+        return next(actions, None)
+
+    def actions(self) -> dict[str, BridgeAction]:
+        """The actions without errors by name."""
+        return {a.name: a for bridge in reversed(self._bridges) for a in bridge.actions}
+
     def _service_tree(self, name: str) -> ast.Service | None:
         services = (s for tree in self._trees for s in tree.services if s.name.text == name)
         return next(services, None)
@@ -95,8 +114,13 @@ def expressions_of(bridge: Bridge) -> Iterator[Expression]:
     built = [value for output in bridge.outputs for value in output.arguments]
     built += [value for call in calls for value in call.arguments]
     built += [value for service in bridge.services for value in service.reply]
+    for action in bridge.actions:
+        built += [value for command in action.commands for value in command.arguments]
+        built += [action.feedback_value, action.result_value]
     roots = [value for hub in bridge.hubs for value in hub.values]
     roots += [value.value for value in built if value.value is not None]
+    conditions = (c for a in bridge.actions for c in (*a.succeed, *a.abort))
+    roots += [comparison for condition in conditions for comparison in condition]
     roots += [assignment.value for value in built for assignment in value.assignments]
     for root in roots:
         yield from root.walk()

@@ -62,6 +62,18 @@ class DeclaredTypes:
             return tuple(reply_members(operation))
         return tuple(members_of(self._struct(_part(ref.name, "Response"))))
 
+    def action_part(self, ref: ast.TypeRef, part: str) -> tuple[BridgeMember, ...]:
+        """The fields of the `Goal`, `Result` or `Feedback` of an action."""
+        return tuple(members_of(self._struct(_part(ref.name, part))))
+
+    def action_messages(self, ref: ast.TypeRef) -> tuple[BridgeMember, ...]:
+        """What an action assigns: its feedback and its result."""
+        return tuple(
+            BridgeMember(part.lower(), struct, "", struct.span, None, "")
+            for part in ("Feedback", "Result")
+            if (struct := self._struct(_part(ref.name, part))) is not None
+        )
+
     def _operation(self, ref: ast.TypeRef) -> Operation | None:
         if ref.operation is None or ref.name is None:
             return None

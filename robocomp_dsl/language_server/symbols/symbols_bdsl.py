@@ -13,7 +13,12 @@ from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.language_server.symbols.bridge_declarations import (
     BridgeDeclarations,
-    expressions_of,
+)
+from robocomp_dsl.language_server.symbols.bridge_occurrences import (
+    enumerators,
+    member_occurrence,
+    occurrence_of,
+    operation_occurrence,
 )
 from robocomp_dsl.language_server.symbols.bridge_types import (
     BridgeMember,
@@ -24,8 +29,7 @@ from robocomp_dsl.language_server.symbols.symbol import Occurrence, Symbol
 from robocomp_dsl.language_server.symbols.symbols_idsl import declaration_symbol, occurrences_of
 from robocomp_dsl.model import types
 from robocomp_dsl.model.bridge import Bridge
-from robocomp_dsl.model.bridge_values import ConstantValue
-from robocomp_dsl.model.interface import Interface, Operation, Param
+from robocomp_dsl.model.interface import Interface, Param
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.ast import bdsl as ast
 from robocomp_dsl.syntax.ast.base import Name, Node, QualifiedName
@@ -75,17 +79,6 @@ def bridge_names(checks: Sequence[Check], path: Path, workspace: Workspace) -> B
     )
 
 
-def member_symbol(member: BridgeMember) -> Symbol:
-    """The symbol of a field, a parameter, or of the operation whose result it is."""
-    kind = "parameter"
-    if isinstance(member.model_object, types.Field) or member.model_object is None:
-        kind = "field"
-    elif isinstance(member.model_object, Operation):
-        kind = "operation"
-    name = member.span.text
-    return Symbol(name, kind, member.span, member.model_object, member.container)
-
-
 class _OccurrenceCollector:
     """All names of a bridge, in any order."""
 
@@ -117,8 +110,10 @@ class _OccurrenceCollector:
             yield from self._output(output)
         for service in tree.services:
             yield from self._service(service)
+        for action in tree.actions:
+            yield from self._action(action)
         if self._bridge:
-            yield from _enumerators(self._bridge)
+            yield from enumerators(self._bridge)
 
     def _declarations(self) -> Iterator[Occurrence]:
         """The names that expressions refer to, and the outputs and services."""
@@ -178,6 +173,36 @@ class _OccurrenceCollector:
             yield from self._expression(assignment.value, own, calls)
             yield from self._path(assignment.path, reply)
 
+    def _action(self, action: ast.Action) -> Iterator[Occurrence]:
+        own, inside = action.name.text, f"{self._tree.name.text}.{action.name.text}"
+        model = self._names.actions().get(own)
+        yield self._declared(action.name, "action", model)
+        yield from self._ros_type(action.type.name, "Goal")
+        values: dict[str, Symbol] = {}
+        for state in action.states:
+            found = self._declared(state.name, "input", None, inside)
+            values.setdefault(state.name.text, found.symbol)
+            yield found
+            yield from self._type(state.type)
+        for command in action.commands:
+            yield self._declared(command.name, "output", None, inside)
+            if command.type:
+                yield from self._type(command.type)
+            members = self._types.message(command.type) if command.type else ()
+            for field in command.fields:
+                yield from self._expression(field.value, own, values)
+                if isinstance(field, ast.Assignment):
+                    yield from self._path(field.path, members)
+        for assignment in action.fields:
+            yield from self._expression(assignment.value, own, values)
+            path = assignment.path.replace(parts=assignment.path.parts[1:])
+            part = assignment.path.parts[0].name.text.capitalize()
+            yield from self._path(path, self._types.action_part(action.type, part))
+        for condition in (*action.succeed, *action.abort):
+            for comparison in condition.comparisons:
+                for side in filter(None, (comparison.left, comparison.right)):
+                    yield from self._expression(side, own, values)
+
     def _expression(
         self, tree: Node, service: str = "", calls: dict[str, Symbol] | None = None
     ) -> Iterator[Occurrence]:
@@ -192,7 +217,7 @@ class _OccurrenceCollector:
                 yield Occurrence(node.name.span, self._functions[node.name.text])
             elif isinstance(node, ast.Member):
                 owner = self._names.resolve(node.value, service)
-                yield from _member_occurrence(node.name, members_of(owner))
+                yield from member_occurrence(node.name, members_of(owner))
             todo += operands(node)
 
     def _path(self, path: ast.Path, members: Iterable[BridgeMember]) -> Iterator[Occurrence]:
@@ -201,7 +226,7 @@ class _OccurrenceCollector:
             member = next((m for m in members if m.name == part.name.text), None)
             if member is None:
                 return
-            yield _occurrence_of(part.name, member)
+            yield occurrence_of(part.name, member)
             owner = member.type
             if part.index is not None and isinstance(owner, types.Sequence):
                 owner = owner.element
@@ -224,47 +249,19 @@ class _OccurrenceCollector:
             yield from found
             interface = found[-1].symbol.model_object if found else None
             if isinstance(interface, Interface):
-                yield from _operation_occurrence(tree.operation, interface)
+                yield from operation_occurrence(tree.operation, interface)
         elif tree.name:
             found = list(occurrences_of(tree.name, self._scope, types.Declaration))
-            yield from found or self._ros_service(tree.name)
+            yield from found or self._ros_type(tree.name, "Request")
 
-    def _ros_service(self, name: QualifiedName) -> Iterator[Occurrence]:
-        """The request of a ROS service, which has no declaration of its own."""
-        request = Name(name.name.span, f"{name.name.text}_Request")
+    def _ros_type(self, name: QualifiedName | None, part: str) -> Iterator[Occurrence]:
+        """The request of a ROS service or the goal of an action, which is no declaration itself."""
+        if name is None:
+            return
+        request = Name(name.name.span, f"{name.name.text}_{part}")
         found = self._scope.lookup(QualifiedName(name.span, request, name.module), types.Struct)
         for struct in found[:1]:
             yield Occurrence(name.name.span, declaration_symbol(struct))
-
-
-def _member_occurrence(name: Name, members: Iterator[BridgeMember]) -> Iterator[Occurrence]:
-    member = next((m for m in members if m.name == name.text), None)
-    if member:
-        yield _occurrence_of(name, member)
-
-
-def _occurrence_of(name: Name, member: BridgeMember) -> Occurrence:
-    """The occurrence of a member; `result` stays when its operation is renamed."""
-    template = "{}" if member.span.text == name.text else name.text
-    return Occurrence(name.span, member_symbol(member), rename_template=template)
-
-
-def _enumerators(bridge: Bridge) -> Iterator[Occurrence]:
-    """The enumerators in expressions."""
-    for value in expressions_of(bridge):
-        if isinstance(value, ConstantValue) and isinstance(value.type, types.Enum):
-            for enumerator in value.type.enumerators:
-                if enumerator.name == value.span.text:
-                    name, span = enumerator.name, enumerator.span
-                    symbol = Symbol(name, "enumerator", span, enumerator, value.type.name)
-                    yield Occurrence(value.span, symbol)
-
-
-def _operation_occurrence(name: Name, interface: Interface) -> Iterator[Occurrence]:
-    for operation in interface.operations:
-        if operation.name == name.text:
-            symbol = Symbol(name.text, "operation", operation.span, operation, interface.name)
-            yield Occurrence(name.span, symbol)
 
 
 def _own_models(bridge: Bridge) -> dict[int, object]:

@@ -4,15 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from time import perf_counter_ns
-from typing import Any
+from typing import Any, Protocol
 
 from robocomp_dsl.runtime.bridge.counts import BridgeCounts, LossReport
 from robocomp_dsl.runtime.bridge.errors import DoesNotFit
-from robocomp_dsl.runtime.bridge.hubs import Hub, ReceivedMessage
+from robocomp_dsl.runtime.bridge.hubs import ReceivedMessage
 from robocomp_dsl.runtime.bridge.outputs import BridgedOutput
 from robocomp_dsl.runtime.bridge.spec import InputSpec
 
 NOT_FITTING = "the message does not fit its type"
+
+
+class MessageTaker(Protocol):
+    """A hub, or what else takes the messages of inputs."""
+
+    def add(self, index: int, message: ReceivedMessage) -> bool:
+        """Take a message of an input; returns whether outputs can be sent."""
 
 
 class BridgedInput:
@@ -38,9 +45,9 @@ class BridgedInput:
         self._stamp = spec.stamp
         self._needs_stamp = spec.needs_stamp
         self._message_stamp = message_stamp
-        self._hubs: list[tuple[Hub, int, tuple[BridgedOutput, ...]]] = []
+        self._hubs: list[tuple[MessageTaker, int, tuple[BridgedOutput, ...]]] = []
 
-    def connect(self, hub: Hub, index: int, outputs: tuple[BridgedOutput, ...]) -> None:
+    def connect(self, hub: MessageTaker, index: int, outputs: tuple[BridgedOutput, ...]) -> None:
         """Pass messages to a hub, as its input `index`; `outputs` are sent when it is ready."""
         self._hubs.append((hub, index, outputs))
 

@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
+from robocomp_dsl.runtime.bridge.actions import STATUS_RATE, BridgedAction
 from robocomp_dsl.runtime.bridge.context import NANOSECONDS, MessageContext
 from robocomp_dsl.runtime.bridge.counts import BridgeCounts, LossReport, transport_losses
 from robocomp_dsl.runtime.bridge.hubs import Hub, SynchronisedHub, hub_of
@@ -20,6 +21,7 @@ from robocomp_dsl.runtime.bridge.outputs import BridgedOutput
 from robocomp_dsl.runtime.bridge.schedule import RateSchedule
 from robocomp_dsl.runtime.bridge.services import BridgedService
 from robocomp_dsl.runtime.bridge.spec import (
+    ActionSpec,
     BridgeSpec,
     HubSpec,
     InputSpec,
@@ -82,7 +84,9 @@ class RunningBridge:
         self.hubs = {s.name: self._hub(s) for s in spec.hubs}
         self.outputs = {s.name: self._output(s, publish[s.name]) for s in spec.outputs}
         self.services = {s.name: self._service(s) for s in spec.services}
-        self.schedule = RateSchedule({s.name: s.rate for s in spec.outputs})
+        self.actions = {s.name: self._action(s, publish) for s in spec.actions}
+        rates = {s.name: s.rate for s in spec.outputs}
+        self.schedule = RateSchedule(rates | dict.fromkeys(self.actions, STATUS_RATE))
         self._connect()
 
     def _stamp_ns(self, name: str) -> int:
@@ -130,8 +134,21 @@ class RunningBridge:
 
         return BridgedService(spec, self._worker, create_context, self._losses("service", spec))
 
+    def _action(
+        self, spec: ActionSpec, publish: Mapping[str, Callable[..., None]]
+    ) -> BridgedAction:
+        operation = self._statistics.of(spec.result.port, spec.result.operation)
+        losses = LossReport(f"action `{spec.name}`", operation, self._log)
+        context = MessageContext(self._stamp_ns)
+        return BridgedAction(
+            spec, self._worker, publish, context, losses, self._log, self._now, self._now_ns
+        )
+
     def _connect(self) -> None:
         """Connect inputs to hubs; a hub is followed by the outputs that have no rate."""
+        for action in self.actions.values():
+            for name, taker in action.connections().items():
+                self.inputs[name].connect(taker, 0, ())
         for hub in self.hubs.values():
             name = hub.spec.name
             used = () if hub.spec.is_passive else self._users(name)
@@ -162,22 +179,28 @@ class RunningBridge:
             found.set_tolerance(seconds)
 
     def send_due(self) -> None:
-        """Send the outputs that are due."""
+        """Send the outputs and the states of actions that are due."""
         for name in self.schedule.due(self._now()):
-            self.outputs[name].send()
+            if name in self.outputs:
+                self.outputs[name].send()
+            else:
+                self.actions[name].tick()
 
     def summary(self) -> list[str]:
-        """The counts of all inputs, outputs and services, a line each."""
+        """The counts of all inputs, outputs, services and actions, a line each."""
         kinds: tuple[tuple[str, str, str, Mapping[str, CountedPort]], ...] = (
             ("input", "received", "dropped", self.inputs),
             ("output", "sent", "not sent", self.outputs),
             ("service", "requests", "failed", self.services),
         )
-        return [
+        lines = [
             f"{kind} `{name}`: {port.counts.summary(verb, lost)}{self._transport_losses(port)}"
             for kind, verb, lost, ports in kinds
             for name, port in ports.items()
         ]
+        for name, action in self.actions.items():
+            lines.append(f"action `{name}`: {action.counts.summary('goals')}")
+        return lines
 
     def _transport_losses(self, port: CountedPort) -> str:
         operation = self._statistics.of(port.spec.port, port.spec.operation)

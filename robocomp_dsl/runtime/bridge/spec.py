@@ -90,6 +90,56 @@ class ServiceSpec:
 
 
 @dataclass(frozen=True, slots=True)
+class CommandSpec:
+    """A command of an action; `build` gets a `MessageContext`, the worker and the goal.
+
+    `is_on_cancel`: it is sent if a goal is cancelled or takes too long. `places` are as in
+    `OutputSpec`.
+    """
+
+    name: str
+    port: str
+    operation: str
+    build: Callable[..., tuple[Any, ...]]
+    places: Mapping[str, str] = field(default_factory=dict)
+    is_on_cancel: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ActionTopicSpec:
+    """A topic that an action publishes; `message` is the class of its messages."""
+
+    port: str
+    operation: str
+    message: Callable[[], Any]
+
+
+@dataclass(frozen=True, slots=True)
+class ActionSpec:
+    """An action server. `goal`, `cancel` and `states` are inputs.
+
+    The functions get a `MessageContext`, the worker, the goal, and the newest message of each
+    state. `timeout` in s, 0: none. `places` are as in `OutputSpec`.
+    """
+
+    name: str
+    place: str
+    goal: str
+    cancel: str
+    states: tuple[str, ...]
+    status: ActionTopicSpec
+    feedback: ActionTopicSpec
+    result: ActionTopicSpec
+    commands: tuple[CommandSpec, ...]
+    build_feedback: Callable[..., Any]
+    build_result: Callable[..., Any]
+    succeeds: Callable[..., bool]
+    aborts: Callable[..., bool] | None = None
+    timeout: float = 0.0
+    places: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
 class BridgeSpec:
     """All of a bridge; `source` is the file it was generated from."""
 
@@ -98,3 +148,4 @@ class BridgeSpec:
     hubs: tuple[HubSpec, ...] = ()
     outputs: tuple[OutputSpec, ...] = ()
     services: tuple[ServiceSpec, ...] = ()
+    actions: tuple[ActionSpec, ...] = ()

@@ -33,6 +33,7 @@ class Capabilities:
     other; empty: it connects none.
     `ros_types_only`: it carries messages and services of ROS only, from `.msg` and `.srv` files.
     `external_ros_types`: components exchange any types, programs that are no components those only.
+    `actions`: its programs have actions whose five topics are below the address (actionlib).
     """
 
     between_processes: bool = True
@@ -51,6 +52,7 @@ class Capabilities:
     external_port_names: str = ""
     ros_types_only: bool = False
     external_ros_types: bool = False
+    actions: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -246,6 +246,52 @@ class Service(Node):
     doc: str = ""
 
 
+class Command(Node):
+    """`command close : (string verb) over yarp at "/hand:i" on cancel { verb = "stop"; };`."""
+
+    name: Name
+    type: TypeRef | None
+    place: Place
+    is_on_cancel: bool = False
+    fields: tuple[Assignment | Item, ...] = ()
+
+
+class Comparison(Node):
+    """`hand.width < 0.02 [m]`; without an operator the value `left`, a bool.
+
+    The operator is `==`, `!=`, `<`, `<=`, `>` or `>=`.
+    """
+
+    left: Expression
+    operator: Name | None = None
+    right: Expression | None = None
+
+
+class Condition(Node):
+    """`moving == false and width < 0.02 [m]`: all comparisons hold."""
+
+    comparisons: tuple[Comparison, ...]
+
+
+class Action(Node):
+    """`action grasp : my_msgs::Grasp over ros1 at "/grasp" { … };`.
+
+    The paths of `fields` begin with `feedback` or `result`. One of the conditions in `succeed` or
+    `abort` ends the goal.
+    """
+
+    name: Name
+    type: TypeRef
+    place: Place
+    commands: tuple[Command, ...] = ()
+    states: tuple[Input, ...] = ()
+    fields: tuple[Assignment, ...] = ()
+    succeed: tuple[Condition, ...] = ()
+    abort: tuple[Condition, ...] = ()
+    timeout: Duration | None = None
+    doc: str = ""
+
+
 class Bridge(Node):
     """`Bridge name { … };`."""
 
@@ -257,6 +303,7 @@ class Bridge(Node):
     hubs: tuple[Hub, ...] = ()
     outputs: tuple[Output, ...] = ()
     services: tuple[Service, ...] = ()
+    actions: tuple[Action, ...] = ()
     doc: str = ""
 
 

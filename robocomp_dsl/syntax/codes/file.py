@@ -20,7 +20,7 @@ NO_DECLARATION = Code(
     "the file contains no description",
     """\
 Every file contains one top-level block: an IDSL file a module, a CDSL file a component, a PDSL file
-a block of parameters, a DDSL file a deployment.
+a block of parameters, a DDSL file a deployment, a BDSL file a bridge.
 
 Wrong:
 
@@ -43,7 +43,7 @@ WRONG_LANGUAGE = Code(
     "the language of the file does not match its suffix",
     """\
 The suffix of a file names its language: `.idsl` interfaces, `.cdsl` a component, `.pdsl` its
-parameters, `.ddsl` a deployment. Rename the file.
+parameters, `.ddsl` a deployment, `.bdsl` a bridge. Rename the file.
 """,
 )
 

@@ -291,7 +291,7 @@ KEYWORD_CASE = Code(
     Severity.ERROR,
     "the keywords of IDSL are written in lower case",
     """\
-IDSL is case-sensitive. CDSL, PDSL and DDSL are not.
+IDSL is case-sensitive. The other languages are not.
 
 Wrong:
 

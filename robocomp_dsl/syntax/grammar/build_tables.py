@@ -32,6 +32,8 @@ _LAST = {
     "SIGN": r"->|=>|::|&&|\|\||[!-/:-@\[-`{-~]",
     "STRAY": r"\S",
 }
+_COMPARISONS = ("==", "!=", "<=", ">=")
+"""Punctuation of the languages that compare values; `vector<int>=` is no comparison in others."""
 _MISSPELT = {
     "OTHER_QUOTES": r"'[^'\n]*'|[“”„][^“”„\n]*[“”]",
     "OPEN_STRING": r'"[^"\n]*?(?=\s*[;,]?\s*$)',
@@ -109,7 +111,7 @@ def _scanner(own: Collection[TerminalDef]) -> str:
     """One regular expression for the tokens of a language; the matching group is the terminal.
 
     Compiling it takes as long as parsing two hundred lines, so all languages share it, except one
-    that defines a terminal of `terminals.lark` itself.
+    that defines a terminal of `terminals.lark` itself, or compares values.
     """
     shared = (GRAMMARS / "terminals.lark").read_text(encoding="utf-8")
     names = [name for name in re.findall(r"^(\w+)[.\d]*:", shared, re.MULTILINE) if name != "WS"]
@@ -119,6 +121,9 @@ def _scanner(own: Collection[TerminalDef]) -> str:
     tokens = {t.name: t.pattern.to_regexp() for t in ranked}
     tokens |= {t.name: t.pattern.to_regexp() for t in own if t.name in tokens}
     groups = _FIRST | tokens | _MISSPELT | _LAST
+    written = {terminal.pattern.value for terminal in own if _is_text(terminal)}
+    if written.issuperset(_COMPARISONS):
+        groups["SIGN"] = "|".join((*_COMPARISONS, groups["SIGN"]))
     return r"\s*(?:" + "|".join(f"(?P<{name}>{regexp})" for name, regexp in groups.items()) + ")"
 
 

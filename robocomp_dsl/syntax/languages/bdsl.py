@@ -13,6 +13,7 @@ from robocomp_dsl.syntax.ast import bdsl as ast
 from robocomp_dsl.syntax.ast.base import Duration, Import, Name, Node, Number
 from robocomp_dsl.syntax.ast.ddsl import Qos
 from robocomp_dsl.syntax.codes import syntax as codes
+from robocomp_dsl.syntax.languages.bdsl_actions import ActionBuilder, fields_of
 from robocomp_dsl.syntax.languages.bdsl_expressions import ExpressionBuilder
 from robocomp_dsl.syntax.languages.bdsl_types import TypeBuilder
 from robocomp_dsl.syntax.languages.builder import BlockSetting, of_kind
@@ -39,12 +40,13 @@ class WrittenPolicy(Node):
     tolerance: Duration | None
 
 
-class BdslBuilder(ExpressionBuilder, TypeBuilder, QosBuilder):
+class BdslBuilder(ActionBuilder, ExpressionBuilder, TypeBuilder, QosBuilder):
     """Builds the nodes of `ast.bdsl`."""
 
     ITEM_NAMES: ClassVar = {
         "file_item": "`import` or `Bridge`",
-        "bridge_item": "`input`, `hub`, `output`, `function`, `service`, `middleware`, `rate`",
+        "bridge_item": "`input`, `hub`, `output`, `function`, `service`, `action`, "
+        "`middleware`, `rate`",
         "input_item": "`stamp`, `reliable`, `best_effort`, `priority`, `keep`, `depth`, `latched`, "
         "`deadline`, `liveliness`",
         "hub_item": "`policy`, `max_age`, `length`",
@@ -52,6 +54,9 @@ class BdslBuilder(ExpressionBuilder, TypeBuilder, QosBuilder):
         "`depth`, …)",
         "service_item": "`field = value;`, `call`",
         "call_item": "`field = value;`",
+        "action_item": "`command`, `state`, `feedback.field = value;`, `result.field = value;`, "
+        "`succeed when`, `abort when`, `timeout`",
+        "command_item": "`field = value;`, `item`",
     }
 
     def start(self, span: Span, *items: Any) -> ast.File:
@@ -79,6 +84,7 @@ class BdslBuilder(ExpressionBuilder, TypeBuilder, QosBuilder):
             hubs=of_kind(ast.Hub, items),
             outputs=of_kind(ast.Output, items),
             services=of_kind(ast.Service, items),
+            actions=of_kind(ast.Action, items),
             doc=self.doc(span),
             **self.settings(items),
         )
@@ -108,6 +114,17 @@ class BdslBuilder(ExpressionBuilder, TypeBuilder, QosBuilder):
         settings = self._port_settings(body)
         return ast.Input(span, name, message, place, doc=self.doc(span), **settings)
 
+    def state(
+        self,
+        span: Span,
+        name: Name,
+        message: ast.TypeRef,
+        place: ast.Place,
+        body: _Block | None,
+    ) -> ast.Input:
+        """`state name : type over yarp at "/hand:o" { … };`."""
+        return self.input(span, name, message, place, body)
+
     def _port_settings(self, body: _Block | None) -> dict[str, Any]:
         """The settings of a port; those of the quality of service become its `qos`."""
         if body is None:
@@ -121,7 +138,7 @@ class BdslBuilder(ExpressionBuilder, TypeBuilder, QosBuilder):
         """The statements between the braces."""
         return span, items
 
-    hub_body = output_body = call_body = input_body
+    hub_body = output_body = call_body = command_body = input_body
 
     def stamp(self, span: Span, path: ast.Path) -> BlockSetting:
         """`stamp header.stamp;`."""
@@ -190,7 +207,7 @@ class BdslBuilder(ExpressionBuilder, TypeBuilder, QosBuilder):
         """`output name : type over ros1 at "/states" = value { … };`."""
         settings = self._port_settings(body)
         whole = None if value is None else self.value(value)
-        fields = _fields(body)
+        fields = fields_of(body)
         doc = self.doc(span)
         return ast.Output(span, name, message, place, whole, fields=fields, doc=doc, **settings)
 
@@ -220,9 +237,3 @@ class BdslBuilder(ExpressionBuilder, TypeBuilder, QosBuilder):
         """`call name : type over ice at "motors" { … };`."""
         fields = of_kind(ast.Assignment, body[1]) if body else ()
         return ast.Call(span, name, message, place, fields)
-
-
-def _fields(body: _Block | None) -> tuple[ast.Assignment | ast.Item, ...]:
-    """The assignments and items of a block, in order."""
-    items = body[1] if body else ()
-    return tuple(item for item in items if isinstance(item, (ast.Assignment, ast.Item)))

@@ -141,7 +141,10 @@ def test_bridge_joins_services_of_ros_and_rpc_of_yarp(
     assert "Response: [ok] false\n" in output
     server.kill()
     place = rover.line_of("service enable", SERVICES, "services.bdsl")
-    failed = f"tcp:/motors/rpc:i) cannot be reached: Connection refused; start it, or correct its address ({place})"
+    failed = (
+        "tcp:/motors/rpc:i) cannot be reached: Connection refused; start it, or correct its"
+        f" address ({place})"
+    )
     answer = master.run("rosservice", "call", "/enable", "data: true")
     assert failed in answer
     assert ".py" not in answer

@@ -1,4 +1,4 @@
-"""Bytes that are no messages arrive at the ports of a bridge, and types change, while data flows."""
+"""Bytes that are no messages arrive at the ports of a bridge, and types change."""
 
 from __future__ import annotations
 

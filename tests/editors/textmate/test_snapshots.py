@@ -20,7 +20,7 @@ FILES = (
     "components/wander/wander.ddsl",
     "components/mobile_base/mobile_base.pdsl",
     "tests/cases/smdsl/sem_clean.smdsl",
-    "tests/cases/bdsl/sem_clean.bdsl",
+    "tests/cases/bdsl/syntax_clean.bdsl",
 )
 
 

@@ -14,7 +14,6 @@ import pytest
 
 from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.errors import MalformedMessage, MiddlewareError
-from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.handshake import exchange_headers
 from robocomp_dsl.runtime.middleware.ros1.settings import read_settings
 from robocomp_dsl.runtime.middleware.ros1.tcpros import (
@@ -24,6 +23,7 @@ from robocomp_dsl.runtime.middleware.ros1.tcpros import (
     parse_header,
 )
 from robocomp_dsl.runtime.middleware.ros1.xmlrpc import RosApi, RosApiError
+from robocomp_dsl.runtime.middleware.tcp.outgoing_link import TcpMessage
 from tests.middleware.ros1.conftest import Ros1Network
 from tests.middleware.ros2.ros_messages import (
     CHAT,
@@ -53,7 +53,7 @@ def node_of(component: RosComponent) -> Any:
 
 
 def opened(component: RosComponent) -> TcprosStream:
-    return tcpros.connect("127.0.0.1", node_of(component).listener.number, TIMEOUT_S)
+    return TcprosStream.connect(("127.0.0.1", node_of(component).listener.number), TIMEOUT_S)
 
 
 def ends(stream: TcprosStream) -> bool:
@@ -215,7 +215,7 @@ def test_subscriber_reports_malformed_messages_of_a_publisher(
     node_of(user).update_publishers("/ear", [node.api_uri])
     wait_until(channel.has_subscribers)
     link = publication.links[0]
-    link.send((sent[:4], sent[4:]), publisher.counts("Chat", "said"))
+    link.send(TcpMessage(sent), publisher.counts("Chat", "said"))
     wait_until(lambda: user.counts("Ear", "said").malformed)
     wait_until(lambda: publish(String("valid")) or texts)
     assert set(texts) == {"valid"}

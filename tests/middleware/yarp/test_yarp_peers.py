@@ -12,11 +12,11 @@ import pytest
 from robocomp_dsl.runtime import MessageStamp, message_stamp, publishing_stamp
 from robocomp_dsl.runtime.codec.bottle.text_reader import read_text
 from robocomp_dsl.runtime.errors import NoServer, RemoteError
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 from robocomp_dsl.runtime.middleware.yarp.name_client import NameClient, NameServerLost
 from robocomp_dsl.runtime.middleware.yarp.name_server import NameServer
 from robocomp_dsl.runtime.middleware.yarp.outgoing import ask_admin
 from robocomp_dsl.runtime.middleware.yarp.registration import ASK_S
-from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost
 from tests.middleware.yarp.conftest import EVENTS, LOOPBACK, POSE, ROBOT, SCAN, Pose, YarpComponent
 from tests.middleware.yarp.sensor_messages import CAMERA, LEVELS, Image, image_of, pixels_of
 from tests.middleware.yarp.test_yarp_robustness import GRIPPER, Grip

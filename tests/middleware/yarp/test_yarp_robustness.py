@@ -15,7 +15,9 @@ from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.codec.bottle.profile import PROFILE_3
 from robocomp_dsl.runtime.codec.bottle.text_reader import read_text
 from robocomp_dsl.runtime.component.statistics import OperationCounts
-from robocomp_dsl.runtime.middleware.yarp import output_link
+from robocomp_dsl.runtime.connection import bounded_queue
+from robocomp_dsl.runtime.connection.endpoint import Qos
+from robocomp_dsl.runtime.middleware.tcp import outgoing_link
 from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress
 from robocomp_dsl.runtime.middleware.yarp.name_client import NameClient
 from robocomp_dsl.runtime.middleware.yarp.name_server import NameServer
@@ -64,7 +66,7 @@ def test_link_is_open_again_after_restarts(
     wait_until(lambda: publish("first", 1) or first.received)
     name_server.close()
     reader.close()
-    for number in range(output_link.DEPTH + 10):
+    for number in range(outgoing_link.DEPTH + 10):
         publish("lost", number)
     again = NameServer((LOOPBACK, name_server.number))
     second = Recorder()
@@ -123,12 +125,12 @@ class SlowReader(Recorder):
 def test_slow_reader_loses_the_oldest_and_is_logged_once(
     caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(output_link, "MAX_BYTES", 1 << 20)
+    monkeypatch.setattr(bounded_queue, "MAX_BYTES", 1 << 20)
     slow = SlowReader()
     reader = YarpPort("/reader", (LOOPBACK, 0), slow)
     counts = OperationCounts("Scan", "ranges")
     address = PortAddress("/reader", "tcp", LOOPBACK, reader.number)
-    link = OutputLink(address, "/own/Scan:o", lambda each: each, None, reliable=False)
+    link = OutputLink(address, "/own/Scan:o", lambda each: each, Qos())
     link.start()
     with caplog.at_level(logging.WARNING, "robocomp"):
         for number in range(40):
@@ -150,7 +152,7 @@ def test_messages_that_no_reader_took_are_counted() -> None:
     with socket.socket() as probe:
         probe.bind((LOOPBACK, 0))
         address = PortAddress("/nobody", "tcp", LOOPBACK, probe.getsockname()[1])
-        link = OutputLink(address, "/own/Scan:o", lambda each: each, None, reliable=False)
+        link = OutputLink(address, "/own/Scan:o", lambda each: each, Qos())
         link.start()
         link.send(OutgoingMessage([1.5], PROFILE_3), counts)
         link.close()

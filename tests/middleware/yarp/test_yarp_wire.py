@@ -270,10 +270,10 @@ def test_invalid_bottle_is_reported_and_the_connection_continues(
 
 def test_connections_are_limited(port: YarpPort) -> None:
     clients = [Client(port) for _ in range(MAX_CONNECTIONS)]
-    wait_until(lambda: len(port._connections) == MAX_CONNECTIONS)
+    wait_until(lambda: port._listener.connections == MAX_CONNECTIONS)
     Client(port).expect_end()
     clients.pop().socket.close()
-    wait_until(lambda: len(port._connections) < MAX_CONNECTIONS)
+    wait_until(lambda: port._listener.connections < MAX_CONNECTIONS)
     clients.append(Client(port).send(b"CONNECT /w\r\n").expect(b"Welcome /w\r\n"))
     for each in clients:
         each.socket.close()

@@ -1,12 +1,10 @@
 """Calls the services of one port.
 
-Each call has a persistent connection for itself while it waits for its reply; connections are kept
-and used again. Commands are topics: a component gets them over one connection, in order.
+Connections are persistent. Commands are topics: a component gets them in order.
 """
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable
 from typing import Any
@@ -15,8 +13,7 @@ from urllib.parse import urlsplit
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.errors import InterfaceMismatch, MalformedMessage, NoServer, Timeout
-from robocomp_dsl.runtime.middleware.ros1 import tcpros
+from robocomp_dsl.runtime.errors import InterfaceMismatch, MalformedMessage, NoServer
 from robocomp_dsl.runtime.middleware.ros1.addresses import parse_address
 from robocomp_dsl.runtime.middleware.ros1.failures import decode_failure
 from robocomp_dsl.runtime.middleware.ros1.handshake import Refused, exchange_headers
@@ -25,9 +22,11 @@ from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Service, service
 from robocomp_dsl.runtime.middleware.ros1.port_receiver import INDEX, frame, port_header
 from robocomp_dsl.runtime.middleware.ros1.publication import Publication
 from robocomp_dsl.runtime.middleware.ros1.service import read_reply
-from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, PeerLost, TcprosStream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, TcprosStream
 from robocomp_dsl.runtime.middleware.ros1.xmlrpc import RosApi, RosApiError
 from robocomp_dsl.runtime.middleware.ros_common.interface_types import is_topic
+from robocomp_dsl.runtime.middleware.tcp.client import TcpClient, TimedCall
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost, Part
 from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
@@ -36,26 +35,19 @@ DISCOVERY_TIMEOUT_S = 1.0
 POLL_S = 0.005
 
 
-class Ros1Client:
+class Ros1Client(TcpClient[TcprosStream]):
     """Calls the server of one record."""
 
     def __init__(self, node: RosNode, at: Endpoint, server: PortRecord, timeout: float) -> None:
         """Raises `MiddlewareError` for an invalid address."""
+        super().__init__(server, timeout)
         self._node = node
         self._at = at
-        self._server = server
-        self._is_external = not server.hash
         self._address = parse_address(server.address, at.port)
-        self._timeout = timeout
-        self._lock = threading.Lock()
-        self._command_lock = threading.Lock()
-        self._idle: dict[str, list[TcprosStream]] = {}
+        port = port_header(node.name, self._address.name, at.interface)
+        self._headers: dict[str, dict[str, str]] = {"": port}
         """By service; a component needs one kind of connection."""
-        self._opened: set[TcprosStream] = set()
-        self._command_stream: TcprosStream | None = None
-        self._port_header = port_header(node.name, self._address.name, at.interface)
         self._publications: dict[str, Publication] = {}
-        self._cancelled = False
 
     def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         """See `transport.ServiceClient`."""
@@ -66,93 +58,50 @@ class Ros1Client:
     def _query(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         service = service_of(self._address.name, self._at.interface, operation)
         timeout, what = self._timeout, f"{self._server.name}.{operation.name}"
-        header = self._port_header
-        prefix = INDEX.pack(self._at.interface.operations.index(operation))
+        prefix, key = INDEX.pack(self._at.interface.operations.index(operation)), ""
         if self._is_external:
-            header, prefix = _service_header(self._node.name, service), b""
-        idle = self._idle.setdefault(header.get("service", ""), [])
+            prefix, key = b"", service.name
+            self._headers[key] = _service_header(self._node.name, service)
         is_ros, decode = service.is_ros, service.decode_reply
 
         def query(data: bytes) -> Any:
-            deadline = time.monotonic() + timeout
-            stream = self._take_stream(idle, header, what, deadline, timeout)
-            try:
+            call = TimedCall(what, timeout)
+
+            def exchange(stream: TcprosStream) -> tuple[bool, Part]:
                 stream.send(LENGTH.pack(len(prefix) + len(data)) + prefix, data)
                 counts.bytes_out += len(data)
-                is_ok, reply = read_reply(stream)
-            except PeerLost as error:
-                self._drop(stream)
-                raise self._failure(error, what, timeout) from None
-            except MalformedMessage as error:
-                self._drop(stream)
-                raise _malformed(what, error) from None
-            except BaseException:
-                self._drop(stream)
-                raise
+                return read_reply(stream)
+
+            is_ok, reply = self._exchange(call, exchange, key)
             counts.bytes_in += len(reply)
-            self._keep(idle, stream)
             if not is_ok:
                 raise decode_failure(operation, what, bytes(reply), timeout, is_ros=is_ros)
             try:
                 return decode(reply)
             except MalformedMessage as error:
-                raise _malformed(what, error) from None
+                raise call.malformed(error) from None
 
         return BoundOperation(service.encode_request, query)
 
-    def _take_stream(
-        self,
-        idle: list[TcprosStream],
-        header: dict[str, str],
-        what: str,
-        deadline: float,
-        timeout: float,
-    ) -> TcprosStream:
-        """An idle connection that is still open, or a new one."""
-        while True:
-            with self._lock:
-                if self._cancelled:
-                    raise ServerLost(self._server.name)
-                stream = idle.pop() if idle else None
-            if stream is None:
-                stream = self._open(header, what, deadline, timeout)
-            elif stream.is_closed():
-                self._drop(stream)
-                continue
-            stream.deadline = deadline
-            return stream
-
-    def _open(
-        self, header: dict[str, str], what: str, deadline: float, timeout: float
-    ) -> TcprosStream:
-        """A new connection whose peer has accepted `header`."""
+    def _connect(self, call: TimedCall, service: str) -> TcprosStream:
         host, number = self._address.host, self._address.number
         if not number:
-            host, number = self._look_up(header["service"], timeout)
-        left = max(0.001, deadline - time.monotonic())
+            host, number = self._look_up(service, call.timeout)
         try:
-            stream = tcpros.connect(host, number, left)
-        except PeerLost as error:
+            return TcprosStream.connect((host, number), call.remaining)
+        except ConnectionLost as error:
             if self._is_external and not error.timed_out:
                 raise NoServer(
-                    f"{self._at.port}: the ROS service {header['service']} at {host}:{number}"
+                    f"{self._at.port}: the ROS service {service} at {host}:{number}"
                     f" cannot be reached: {error}; start its node again"
                 ) from None
-            raise self._failure(error, what, timeout) from None
-        with self._lock:
-            self._opened.add(stream)
+            raise
+
+    def _set_up(self, stream: TcprosStream, call: TimedCall, service: str) -> None:
         try:
-            exchange_headers(stream, header, max(0.001, deadline - time.monotonic()))
+            exchange_headers(stream, self._headers[service], call.remaining)
         except Refused as error:
-            self._drop(stream)
-            raise InterfaceMismatch(f"{self._at.port}: {what}: {error}") from None
-        except PeerLost as error:
-            self._drop(stream)
-            raise self._failure(error, what, timeout) from None
-        if self._cancelled:
-            self._drop(stream)
-            raise ServerLost(self._server.name)
-        return stream
+            raise InterfaceMismatch(f"{self._at.port}: {call.what}: {error}") from None
 
     def _look_up(self, service: str, timeout: float) -> tuple[str, int]:
         """Host and TCP port of a service, as the master knows it. Raises `NoServer`."""
@@ -181,26 +130,15 @@ class Ros1Client:
             self._node.add_publication(publication)
             self._publications[operation.name] = publication
             return BoundOperation(topic.encode, self._publish(publication, counts))
-        header, index = self._port_header, self._at.interface.operations.index(operation)
+        index = self._at.interface.operations.index(operation)
 
         def command(data: bytes) -> None:
-            deadline = time.monotonic() + timeout
-            with self._command_lock:
-                stream, self._command_stream = self._command_stream, None
-                if stream is not None and stream.is_closed():
-                    self._drop(stream)
-                    raise ServerLost(self._server.name)
-                if self._cancelled:
-                    raise ServerLost(self._server.name)
-                if stream is None:
-                    stream = self._open(header, what, deadline, timeout)
-                stream.deadline = deadline
-                try:
-                    stream.send(*frame(index, publication.counter(), data))
-                except PeerLost as error:
-                    self._drop(stream)
-                    raise self._failure(error, what, timeout) from None
-                self._command_stream = stream
+            call = TimedCall(what, timeout)
+
+            def send(stream: TcprosStream) -> None:
+                stream.send(*frame(index, publication.counter(), data).parts)
+
+            self._send_in_order(call, send)
             counts.bytes_out += len(data)
 
         return BoundOperation(topic.encode, command)
@@ -226,42 +164,9 @@ class Ros1Client:
 
         return command
 
-    def _failure(self, error: PeerLost, what: str, timeout: float) -> Exception:
-        if self._cancelled:
-            return ServerLost(self._server.name)
-        if error.timed_out:
-            return Timeout(f"{what} did not reply within {timeout:g} s")
-        return ServerLost(f"{self._server.name}: the connection was lost ({error})")
-
-    def _keep(self, idle: list[TcprosStream], stream: TcprosStream) -> None:
-        with self._lock:
-            if not self._cancelled:
-                idle.append(stream)
-                return
-        self._drop(stream)
-
-    def _drop(self, stream: TcprosStream) -> None:
-        with self._lock:
-            self._opened.discard(stream)
-        stream.close()
-
-    def set_timeout(self, seconds: float) -> None:
-        """See `transport.ServiceClient`."""
-        self._timeout = seconds
-
-    def cancel(self) -> None:
-        """See `transport.ServiceClient`."""
-        with self._lock:
-            self._cancelled = True
-            opened, self._opened = self._opened, set()
-            for idle in self._idle.values():
-                idle.clear()
-        for stream in opened:
-            stream.close()
-
     def close(self) -> None:
         """See `transport.ServiceClient`."""
-        self.cancel()
+        super().close()
         for publication in self._publications.values():
             self._node.remove_publication(publication)
 
@@ -274,7 +179,3 @@ def _service_header(node: str, service: Ros1Service) -> dict[str, str]:
         "service": service.name,
         "type": service.type.name,
     }
-
-
-def _malformed(what: str, error: MalformedMessage) -> MalformedMessage:
-    return MalformedMessage(f"the reply of {what}: {error.reason}", error.path, error.offset)

@@ -15,6 +15,7 @@ MIDDLEWARE = MiddlewareDescription(
         attaches_subscribers=True,
         qos=frozenset({"reliable", "keep_all", "latched"}),
         external_ros_types=True,
+        actions=True,
         max_message_bytes=MAX_MESSAGE_BYTES,
     ),
     opener="robocomp_dsl.runtime.middleware.ros1.transport:open_transport",

@@ -10,25 +10,26 @@ import time
 from robocomp_dsl.runtime.errors import MalformedMessage
 from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.message_types import ANY, Ros1Type
-from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import TcprosStream
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 
 ERROR_KEY = "error"
 
 
-class Refused(PeerLost):
+class Refused(ConnectionLost):
     """The peer does not accept the connection, for a reason that it tells."""
 
 
 def exchange_headers(
     stream: TcprosStream, header: dict[str, str], timeout: float
 ) -> dict[str, str]:
-    """Send a header and read that of the peer. Raises `PeerLost`, `Refused` if it refuses."""
+    """Send a header and read that of the peer. Raises `ConnectionLost`, `Refused` if it refuses."""
     stream.deadline = time.monotonic() + timeout
     stream.send(tcpros.encode_header(header))
     try:
         reply = stream.header()
     except MalformedMessage as error:
-        raise PeerLost(f"the peer is no ROS node: {error}") from None
+        raise ConnectionLost(f"the peer is no ROS node: {error}") from None
     if ERROR_KEY in reply:
         raise Refused(reply[ERROR_KEY])
     stream.deadline = None
@@ -36,7 +37,7 @@ def exchange_headers(
 
 
 def refuse(stream: TcprosStream, reason: str) -> None:
-    """Tell the peer why it is not accepted. Raises `PeerLost`."""
+    """Tell the peer why it is not accepted. Raises `ConnectionLost`."""
     stream.send(tcpros.encode_header({ERROR_KEY: reason}))
 
 

@@ -6,7 +6,7 @@ In: connections to publishers. Out: arguments in the queue of the port.
 from __future__ import annotations
 
 import logging
-import threading
+from contextlib import closing
 from typing import Any
 
 from robocomp_dsl.runtime.component.throttle import Throttle
@@ -14,21 +14,12 @@ from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, Inc
 from robocomp_dsl.runtime.connection.message_queue import MessageQueue
 from robocomp_dsl.runtime.errors import MalformedMessage
 from robocomp_dsl.runtime.middleware.ros1.handshake import refusal
+from robocomp_dsl.runtime.middleware.ros1.incoming_links import IncomingLink, IncomingLinks
 from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Topic, topic_of
-from robocomp_dsl.runtime.middleware.ros1.subscriber_link import link_numbers
-from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import TcprosStream
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 
 log = logging.getLogger("robocomp")
-
-
-class IncomingLink:
-    """One publisher that sends; `peer` is the name of its node."""
-
-    def __init__(self, stream: TcprosStream, peer: str) -> None:
-        self.number = next(link_numbers)
-        self.stream = stream
-        self.peer = peer
-        self.messages_in = 0
 
 
 class TopicReceiver:
@@ -48,14 +39,8 @@ class TopicReceiver:
         self._served = served
         self._queue = queue
         self._throttle = Throttle()
-        self._lock = threading.Lock()
-        self._connections: tuple[IncomingLink, ...] = ()
-        self._closed = False
-
-    @property
-    def connections(self) -> tuple[IncomingLink, ...]:
+        self.connections = IncomingLinks()
         """The publishers that are connected."""
-        return self._connections
 
     def header(self) -> dict[str, str]:
         """What a subscriber tells a publisher."""
@@ -73,29 +58,20 @@ class TopicReceiver:
         return refusal(self.topic.name, self.topic.type, header, "publishes")
 
     def receive(self, stream: TcprosStream, peer: str) -> None:
-        """Receive until the connection ends, which raises `PeerLost`."""
-        connection = IncomingLink(stream, peer)
-        with self._lock:
-            if self._closed:
-                raise PeerLost("the port was closed")
-            self._connections += (connection,)
-        try:
-            self._receive(connection)
-        finally:
-            with self._lock:
-                self._connections = tuple(c for c in self._connections if c is not connection)
-            stream.close()
+        """Receive until the connection ends, which raises `ConnectionLost`."""
+        with closing(stream), self.connections.serving(stream, peer) as link:
+            self._receive(link)
 
-    def _receive(self, connection: IncomingLink) -> None:
-        frame = connection.stream.frame
+    def _receive(self, link: IncomingLink) -> None:
+        frame = link.stream.frame
         while True:
             try:
                 data = frame()
             except MalformedMessage as error:
-                self._malformed(connection.peer, error)
-                raise PeerLost(str(error)) from None
-            connection.messages_in += 1
-            self.handle(data, connection.peer)
+                self._malformed(link.peer, error)
+                raise ConnectionLost(str(error)) from None
+            link.messages_in += 1
+            self.handle(data, link.peer)
 
     def handle(self, data: Any, peer: str) -> None:
         """Pass one message to the queue, or report it as malformed."""
@@ -126,8 +102,4 @@ class TopicReceiver:
 
     def close(self) -> None:
         """End all connections."""
-        with self._lock:
-            self._closed = True
-            connections = self._connections
-        for connection in connections:
-            connection.stream.close()
+        self.connections.close()

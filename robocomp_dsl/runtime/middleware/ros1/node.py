@@ -9,7 +9,8 @@ from typing import Any
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.middleware.ros1.addresses import own_name
 from robocomp_dsl.runtime.middleware.ros1.handshake import refuse
-from robocomp_dsl.runtime.middleware.ros1.incoming import IncomingLink, TopicReceiver
+from robocomp_dsl.runtime.middleware.ros1.incoming import TopicReceiver
+from robocomp_dsl.runtime.middleware.ros1.incoming_links import IncomingLink
 from robocomp_dsl.runtime.middleware.ros1.listener import TcprosListener
 from robocomp_dsl.runtime.middleware.ros1.node_api import NodeApi
 from robocomp_dsl.runtime.middleware.ros1.port_receiver import PORT_KEY, PortReceiver
@@ -189,15 +190,15 @@ class RosNode:
             for each in several
         ]
         ends += [(name, port) for name, several in list(self._ports.items()) for port in several]
-        return [(name, connection) for name, end in ends for connection in end.connections]
+        return [(name, connection) for name, end in ends for connection in end.connections.links]
 
     def bus_stats(self) -> list[list[Any]]:
         """See `NodeState`."""
         published: list[Any] = []
         for name, publication in list(self._publications.items()):
             links = publication.links
-            rows = [[n.number, n.bytes_out, n.messages_out, n.is_connected] for n in links]
-            published.append([name, sum(link.bytes_out for link in links), rows])
+            rows = [[n.number, n.body_bytes, n.messages_out, n.is_connected] for n in links]
+            published.append([name, sum(link.body_bytes for link in links), rows])
         received = [
             [name, [[c.number, c.stream.bytes_in, c.messages_in, 0, True]]]
             for name, c in self._connections()

@@ -14,7 +14,7 @@ from typing import Any, Protocol
 from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.middleware.ros1.tcpros import failure_reason
+from robocomp_dsl.runtime.middleware.tcp.stream import failure_reason
 
 _TRANSPORT = "TCPROS"
 _REQUEST_S = 10.0

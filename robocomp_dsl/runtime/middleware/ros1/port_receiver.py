@@ -9,7 +9,6 @@ messages of different operations stays, which topics of ROS do not promise.
 from __future__ import annotations
 
 import struct
-import threading
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
@@ -17,8 +16,10 @@ from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.errors import MalformedMessage
 from robocomp_dsl.runtime.middleware.ros1 import tcpros
-from robocomp_dsl.runtime.middleware.ros1.incoming import IncomingLink
-from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
+from robocomp_dsl.runtime.middleware.ros1.incoming_links import IncomingLink, IncomingLinks
+from robocomp_dsl.runtime.middleware.ros1.tcpros import TcprosStream
+from robocomp_dsl.runtime.middleware.tcp.outgoing_link import TcpMessage
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 
 INDEX = struct.Struct("<H")
 PORT_KEY = "port"
@@ -36,10 +37,10 @@ def port_header(node: str, name: str, interface: Interface) -> dict[str, str]:
     }
 
 
-def frame(operation: int, counter: bytes, data: bytes) -> tuple[bytes, bytes]:
+def frame(operation: int, counter: bytes, data: bytes) -> TcpMessage:
     """A message of an operation; `counter` is that of its header, or empty."""
     prefix = INDEX.pack(operation) + counter
-    return tcpros.LENGTH.pack(len(prefix) + len(data)) + prefix, data
+    return TcpMessage(tcpros.LENGTH.pack(len(prefix) + len(data)) + prefix, data)
 
 
 class PortReceiver:
@@ -53,14 +54,8 @@ class PortReceiver:
         self._header = port_header(node, name, port.interface)
         self._handlers = handlers
         self._port = port
-        self._lock = threading.Lock()
-        self._connections: tuple[IncomingLink, ...] = ()
-        self._closed = False
-
-    @property
-    def connections(self) -> tuple[IncomingLink, ...]:
+        self.connections = IncomingLinks()
         """The components that are connected."""
-        return self._connections
 
     def refusal(self, header: dict[str, str]) -> str:
         """Why a component cannot be connected; empty if it can."""
@@ -72,34 +67,26 @@ class PortReceiver:
         )
 
     def accept(self, stream: TcprosStream, header: dict[str, str]) -> None:
-        """Receive until the connection ends, which raises `PeerLost`."""
+        """Receive until the connection ends, which raises `ConnectionLost`."""
         stream.send(tcpros.encode_header(self._header))
-        connection = IncomingLink(stream, header.get("callerid", "a component"))
-        with self._lock:
-            if self._closed:
-                raise PeerLost("the port was closed")
-            self._connections += (connection,)
-        try:
-            self._receive(connection)
-        finally:
-            with self._lock:
-                self._connections = tuple(c for c in self._connections if c is not connection)
+        peer = header.get("callerid", "a component")
+        with self.connections.serving(stream, peer) as link:
+            self._receive(link)
 
-    def _receive(self, connection: IncomingLink) -> None:
-        stream, handlers = connection.stream, self._handlers
+    def _receive(self, link: IncomingLink) -> None:
+        stream, handlers = link.stream, self._handlers
         while True:
             try:
                 data = stream.frame()
                 (index,) = INDEX.unpack_from(data)
                 handler = handlers[index]
             except (MalformedMessage, struct.error, KeyError) as error:
-                self._report(connection.peer, error)
-                raise PeerLost(str(error)) from None
-            connection.messages_in += 1
-            reply = handler(data[INDEX.size :], connection.peer)
+                self._report(link.peer, error)
+                raise ConnectionLost(str(error)) from None
+            link.messages_in += 1
+            reply = handler(data[INDEX.size :], link.peer)
             if reply is not None:
-                if self._closed:
-                    raise PeerLost("the port was closed")
+                self.connections.check_open()
                 stream.send(*reply)
 
     def _report(self, peer: str, error: Exception) -> None:
@@ -110,8 +97,4 @@ class PortReceiver:
 
     def close(self) -> None:
         """End all connections; running handlers may finish."""
-        with self._lock:
-            self._closed = True
-            connections = self._connections
-        for connection in connections:
-            connection.stream.close()
+        self.connections.close()

@@ -13,8 +13,9 @@ from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.handshake import refusal
 from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Topic
-from robocomp_dsl.runtime.middleware.ros1.subscriber_link import Frame, SubscriberLink
+from robocomp_dsl.runtime.middleware.ros1.subscriber_link import SubscriberLink
 from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, TcprosStream
+from robocomp_dsl.runtime.middleware.tcp.outgoing_link import TcpMessage
 
 _MAX_COUNT = 1 << 32
 
@@ -29,7 +30,7 @@ class Publication:
         self._lock = threading.Lock()
         self._links: tuple[SubscriberLink, ...] = ()
         self._numbers = count(1)
-        self._latest: Frame | None = None
+        self._latest: TcpMessage | None = None
         self._counts = OperationCounts("", "")
 
     @property
@@ -54,16 +55,14 @@ class Publication:
         }
 
     def accept(self, stream: TcprosStream, peer: str) -> None:
-        """Send to a subscriber that has connected. Raises `PeerLost`."""
+        """Send to a subscriber that has connected. Raises `ConnectionLost`."""
         stream.send(tcpros.encode_header(self.reply_header()))
-        self._add(SubscriberLink(peer, self._qos, stream=stream, on_end=self._remove))
-
-    def _add(self, link: SubscriberLink) -> None:
+        link = SubscriberLink(self._node, peer, self._qos, on_end=self._remove)
         with self._lock:
             self._links += (link,)
             if self._latest is not None:
                 link.send(self._latest, self._counts)
-        link.start()
+        link.start(stream)
 
     def _remove(self, link: SubscriberLink) -> None:
         with self._lock:
@@ -80,16 +79,16 @@ class Publication:
         if not self._links and not self._qos.latched:
             return
         counter = self.counter() if counter is None else counter
-        frame = LENGTH.pack(len(counter) + len(data)) + counter, data
+        message = TcpMessage(LENGTH.pack(len(counter) + len(data)) + counter, data)
         if self._qos.latched:
             with self._lock:
-                self._latest = frame
+                self._latest = message
                 self._counts = counts
                 for link in self._links:
-                    link.send(frame, counts)
+                    link.send(message, counts)
         else:
             for link in self._links:
-                link.send(frame, counts)
+                link.send(message, counts)
 
     def close(self) -> None:
         """End all links."""

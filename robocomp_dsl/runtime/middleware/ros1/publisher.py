@@ -10,7 +10,6 @@ from threading import Lock
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.addresses import RosAddress, parse_address
 from robocomp_dsl.runtime.middleware.ros1.description import MIDDLEWARE
 from robocomp_dsl.runtime.middleware.ros1.handshake import exchange_headers
@@ -19,11 +18,11 @@ from robocomp_dsl.runtime.middleware.ros1.operations import topic_of
 from robocomp_dsl.runtime.middleware.ros1.port_receiver import frame, port_header
 from robocomp_dsl.runtime.middleware.ros1.publication import Publication
 from robocomp_dsl.runtime.middleware.ros1.subscriber_link import SubscriberLink
-from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import TcprosStream
+from robocomp_dsl.runtime.middleware.tcp.outgoing_link import CONNECT_S
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 from robocomp_dsl.runtime.middleware.transport import BoundOperation
 from robocomp_dsl.runtime.presence.port_record import PortRecord
-
-CONNECT_S = 2.0
 
 
 class Ros1Publisher:
@@ -67,9 +66,9 @@ class Ros1Publisher:
                 publication.publish(data, counts)
             links = self._links
             if links:
-                buffers = frame(index, counter, data)
+                message = frame(index, counter, data)
                 for link in links:
-                    link.send(buffers, counts)
+                    link.send(message, counts)
 
         return BoundOperation(first.topic.encode, send)
 
@@ -79,10 +78,10 @@ class Ros1Publisher:
         header = port_header(self._node.name, address.name, self._at.interface)
 
         def open_stream() -> TcprosStream:
-            stream = tcpros.connect(address.host, address.number, CONNECT_S)
+            stream = TcprosStream.connect((address.host, address.number), CONNECT_S)
             try:
                 exchange_headers(stream, header, CONNECT_S)
-            except PeerLost:
+            except ConnectionLost:
                 stream.close()
                 raise
             return stream
@@ -90,7 +89,7 @@ class Ros1Publisher:
         with self._lock:
             if subscriber in self._attached:
                 return
-            link = SubscriberLink(subscriber.name, self._at.qos, open_stream=open_stream)
+            link = SubscriberLink(self._node.name, subscriber.name, self._at.qos, open_stream)
             self._attached[subscriber] = link
             self._links = tuple(self._attached.values())
         link.start()

@@ -6,7 +6,6 @@ text. A client that is not `persistent` makes one call.
 
 from __future__ import annotations
 
-import threading
 from typing import Any
 
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
@@ -14,6 +13,7 @@ from robocomp_dsl.runtime.errors import MalformedMessage
 from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.failures import encode_failure
 from robocomp_dsl.runtime.middleware.ros1.handshake import refusal, refuse
+from robocomp_dsl.runtime.middleware.ros1.incoming_links import IncomingLinks
 from robocomp_dsl.runtime.middleware.ros1.operations import Ros1Service, service_of
 from robocomp_dsl.runtime.middleware.ros1.tcpros import LENGTH, TcprosStream
 
@@ -28,9 +28,7 @@ class ServiceServer:
         self.requests = 0
         self._node = node
         self._served = served
-        self._lock = threading.Lock()
-        self._streams: set[TcprosStream] = set()
-        self._closed = False
+        self._links = IncomingLinks()
 
     def accept(self, stream: TcprosStream, header: dict[str, str]) -> str:
         """Serve a client until its connection ends; returns why it was refused, if it was."""
@@ -49,15 +47,8 @@ class ServiceServer:
         stream.send(tcpros.encode_header(reply))
         if header.get("probe") == "1":
             return ""
-        with self._lock:
-            if self._closed:
-                return ""
-            self._streams.add(stream)
-        try:
+        with self._links.serving(stream, header.get("callerid", "")):
             self._serve(stream, is_persistent=header.get("persistent", "") in {"1", "true"})
-        finally:
-            with self._lock:
-                self._streams.discard(stream)
         return ""
 
     def _serve(self, stream: TcprosStream, *, is_persistent: bool) -> None:
@@ -69,8 +60,7 @@ class ServiceServer:
                 stream.send(*self._failure(error))
                 return
             buffers = self.reply(data)
-            if self._closed:
-                return  # the caller learns that the server ended
+            self._links.check_open()  # the caller learns that the server ended
             stream.send(*buffers)
             if not is_persistent:
                 return
@@ -94,11 +84,7 @@ class ServiceServer:
 
     def close(self) -> None:
         """End all connections; running handlers may finish."""
-        with self._lock:
-            self._closed = True
-            streams = list(self._streams)
-        for stream in streams:
-            stream.close()
+        self._links.close()
 
 
 def read_reply(stream: TcprosStream) -> tuple[bool, bytes | memoryview]:

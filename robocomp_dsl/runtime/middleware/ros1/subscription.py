@@ -11,15 +11,13 @@ import time
 from collections.abc import Sequence
 from urllib.parse import urlsplit
 
-from robocomp_dsl.runtime.middleware.ros1 import tcpros
 from robocomp_dsl.runtime.middleware.ros1.handshake import Refused, exchange_headers
 from robocomp_dsl.runtime.middleware.ros1.incoming import TopicReceiver
-from robocomp_dsl.runtime.middleware.ros1.tcpros import PeerLost, TcprosStream
+from robocomp_dsl.runtime.middleware.ros1.tcpros import TcprosStream
 from robocomp_dsl.runtime.middleware.ros1.xmlrpc import RosApi, RosApiError
+from robocomp_dsl.runtime.middleware.tcp.outgoing_link import CLOSE_S, CONNECT_S, RETRY_S
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 
-CONNECT_S = 2.0
-RETRY_S = 0.5
-CLOSE_S = 0.5
 _TRANSPORT = "TCPROS"
 
 
@@ -58,7 +56,7 @@ class TopicSubscription:
             except Refused as error:
                 self.receiver.warn(f"refused {uri}", "the publisher at %s: %s", uri, error)
                 pause = 4 * RETRY_S
-            except (PeerLost, RosApiError) as error:
+            except (ConnectionLost, RosApiError) as error:
                 if not is_reported and not self._is_ended(uri):
                     is_reported = True
                     name = self.receiver.topic.name
@@ -79,7 +77,7 @@ class TopicSubscription:
             self.receiver.inform(f"connected {peer}", "%s is connected to %s", topic, peer)
         try:
             self.receiver.receive(stream, peer)
-        except PeerLost:
+        except ConnectionLost:
             if not self._closed:
                 self._has_lost = True
                 self.receiver.inform(f"ended {peer}", "%s: the publisher %s ended", topic, peer)
@@ -88,7 +86,7 @@ class TopicSubscription:
         return self._closed or uri not in self._publishers
 
     def _connect(self, uri: str) -> tuple[TcprosStream, str]:
-        """A connection that brings messages. Raises `PeerLost` and `RosApiError`."""
+        """A connection that brings messages. Raises `ConnectionLost` and `RosApiError`."""
         api = RosApi(uri, CONNECT_S)
         topic = self.receiver.topic.name
         try:
@@ -96,14 +94,14 @@ class TopicSubscription:
         finally:
             api.close()
         if not (isinstance(reply, list) and len(reply) >= 3 and isinstance(reply[2], int)):
-            raise PeerLost(f"{uri} offers {reply!r:.60} instead of TCPROS, host and port")
+            raise ConnectionLost(f"{uri} offers {reply!r:.60} instead of TCPROS, host and port")
         host = str(reply[1]) or urlsplit(uri).hostname or ""
-        stream = tcpros.connect(host, reply[2], CONNECT_S)
+        stream = TcprosStream.connect((host, reply[2]), CONNECT_S)
         try:
             header = exchange_headers(stream, self.receiver.header(), CONNECT_S)
             if refusal := self.receiver.refusal(header):
                 raise Refused(refusal)
-        except PeerLost:
+        except ConnectionLost:
             stream.close()
             raise
         return stream, header.get("callerid", uri)

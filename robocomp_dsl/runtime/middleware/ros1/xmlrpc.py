@@ -11,7 +11,7 @@ import xmlrpc.client
 from typing import Any
 from xml.parsers.expat import ExpatError
 
-from robocomp_dsl.runtime.middleware.ros1.tcpros import failure_reason
+from robocomp_dsl.runtime.middleware.tcp.stream import failure_reason
 
 SUCCESS = 1
 

@@ -1,13 +1,7 @@
-"""Calls the operations of one rpc port.
-
-Each call has a connection for itself while it waits for its reply; connections are kept and used
-again. Commands share one, so that they arrive in order.
-"""
+"""Calls the operations of one rpc port."""
 
 from __future__ import annotations
 
-import threading
-import time
 from collections.abc import Callable
 from typing import Any
 
@@ -21,19 +15,21 @@ from robocomp_dsl.runtime.codec.bottle.values import Bottle
 from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, NoServer, Timeout
-from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost
+from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, NoServer
+from robocomp_dsl.runtime.middleware.tcp.client import TcpClient, TimedCall
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
+from robocomp_dsl.runtime.middleware.transport import BoundOperation
 from robocomp_dsl.runtime.middleware.yarp import outgoing
 from robocomp_dsl.runtime.middleware.yarp.addresses import parse_address
 from robocomp_dsl.runtime.middleware.yarp.description import MAX_MESSAGE_BYTES
 from robocomp_dsl.runtime.middleware.yarp.outgoing import Resolve
-from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost, Stream
+from robocomp_dsl.runtime.middleware.yarp.stream import YarpStream
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 _TEXT = ("text", "text_ack")
 
 
-class YarpServiceClient:
+class YarpServiceClient(TcpClient[YarpStream]):
     """Calls the server of one record."""
 
     def __init__(
@@ -47,20 +43,12 @@ class YarpServiceClient:
         layout: Layout = Layout.YARP,
     ) -> None:
         """Raises `MiddlewareError` for an invalid address."""
+        super().__init__(server, timeout)
         self._layout = layout
-        self._server = server
-        self._is_external = not server.hash
         self._address = parse_address(server.address, at.name)
         self._sender = sender
         self._resolve = resolve
         self._profile = profile
-        self._timeout = timeout
-        self._lock = threading.Lock()
-        self._command_lock = threading.Lock()
-        self._idle: list[Stream] = []
-        self._opened: set[Stream] = set()
-        self._command_stream: Stream | None = None
-        self._cancelled = False
 
     def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         """See `ServiceClient`."""
@@ -83,30 +71,23 @@ class YarpServiceClient:
         decode = messages.reply_decoder(operation, layout, external=external)
 
         def query(payload: tuple[Bottle, bytes]) -> Any:
-            deadline = time.monotonic() + timeout
+            call = TimedCall(what, timeout)
             data = outgoing.message_bytes(self._address.carrier, *payload, "d")
-            stream = self._take_stream(what, deadline, timeout)
-            try:
+
+            def exchange(stream: YarpStream) -> Bottle:
                 stream.send(data)
                 counts.bytes_out += len(data)
                 reply, size = self._read_reply(stream)
-            except ConnectionLost as error:
-                self._drop(stream)
-                raise self._failure(error, what, timeout) from None
-            except MalformedMessage as error:
-                self._drop(stream)
-                raise _malformed(what, error) from None
-            except BaseException:
-                self._drop(stream)
-                raise
-            counts.bytes_in += size
-            self._keep(stream)
+                counts.bytes_in += size
+                return reply
+
+            reply = self._exchange(call, exchange)
             if messages.is_failure(reply, operation, layout, external=external):
                 raise messages.decode_failure(operation, what, reply)
             try:
                 return decode(reply)
             except MalformedMessage as error:
-                raise _malformed(what, error) from None
+                raise call.malformed(error) from None
 
         return query
 
@@ -115,66 +96,32 @@ class YarpServiceClient:
         what = f"{self._server.name}.{operation.name}"
 
         def command(payload: tuple[Bottle, bytes]) -> None:
-            deadline = time.monotonic() + timeout
+            call = TimedCall(what, timeout)
             data = outgoing.message_bytes(self._address.carrier, *payload, "D")
-            with self._command_lock:
-                stream, self._command_stream = self._command_stream, None
-                if stream is None or stream.is_closed():
-                    if stream:
-                        self._drop(stream)
-                        if not self._is_external:
-                            raise ServerLost(self._server.name)
-                    stream = self._open(what, deadline, timeout)
-                stream.deadline = deadline
-                try:
-                    stream.send(data)
-                    outgoing.read_ack(stream, self._address.carrier)
-                except ConnectionLost as error:
-                    self._drop(stream)
-                    raise self._failure(error, what, timeout) from None
-                self._command_stream = stream
+
+            def send(stream: YarpStream) -> None:
+                stream.send(data)
+                outgoing.read_ack(stream, self._address.carrier)
+
+            self._send_in_order(call, send)
             counts.bytes_out += len(data)
 
         return command
 
-    def _take_stream(self, what: str, deadline: float, timeout: float) -> Stream:
-        """An idle connection that is still open, or a new one."""
-        while True:
-            with self._lock:
-                if self._cancelled:
-                    raise ServerLost(self._server.name)
-                stream = self._idle.pop() if self._idle else None
-            if stream is None:
-                stream = self._open(what, deadline, timeout)
-            elif stream.is_closed():
-                self._drop(stream)
-                continue
-            stream.deadline = deadline
-            return stream
-
-    def _open(self, what: str, deadline: float, timeout: float) -> Stream:
-        if self._cancelled:
-            raise ServerLost(self._server.name)
+    def _connect(self, call: TimedCall, service: str) -> YarpStream:
+        del service
         try:
             address = self._resolve(self._address)
-            left = max(0.001, deadline - time.monotonic())
-            stream = outgoing.open_connection(address, self._sender, left)
+            return outgoing.open_connection(address, self._sender, call.remaining)
         except ConnectionLost as error:
             if self._is_external and not error.timed_out:
                 raise NoServer(
                     f"{self._server.component} ({self._address}) cannot be reached: {error};"
                     " start it, or correct its address"
                 ) from None
-            raise self._failure(error, what, timeout) from None
-        with self._lock:
-            self._opened.add(stream)
-            cancelled = self._cancelled
-        if cancelled:
-            self._drop(stream)
-            raise ServerLost(self._server.name)
-        return stream
+            raise
 
-    def _read_reply(self, stream: Stream) -> tuple[Bottle, int]:
+    def _read_reply(self, stream: YarpStream) -> tuple[Bottle, int]:
         carrier = self._address.carrier
         if carrier in _TEXT:
             continuation = Continuation()
@@ -196,43 +143,3 @@ class YarpServiceClient:
         reply, size = read_stream(take, self._profile)
         outgoing.read_ack(stream, carrier)
         return reply, size
-
-    def _failure(self, error: ConnectionLost, what: str, timeout: float) -> Exception:
-        if self._cancelled:
-            return ServerLost(self._server.name)
-        if error.timed_out:
-            return Timeout(f"{what} did not reply within {timeout:g} s")
-        return ServerLost(f"{self._server.name}: the connection was lost ({error})")
-
-    def _keep(self, stream: Stream) -> None:
-        with self._lock:
-            if not self._cancelled:
-                self._idle.append(stream)
-                return
-        self._drop(stream)
-
-    def _drop(self, stream: Stream) -> None:
-        with self._lock:
-            self._opened.discard(stream)
-        stream.close()
-
-    def set_timeout(self, seconds: float) -> None:
-        """See `ServiceClient`."""
-        self._timeout = seconds
-
-    def cancel(self) -> None:
-        """See `ServiceClient`."""
-        with self._lock:
-            self._cancelled = True
-            opened, self._opened = self._opened, set()
-            self._idle.clear()
-        for stream in opened:
-            stream.close()
-
-    def close(self) -> None:
-        """See `ServiceClient`."""
-        self.cancel()
-
-
-def _malformed(what: str, error: MalformedMessage) -> MalformedMessage:
-    return MalformedMessage(f"the reply of {what}: {error.reason}", error.path, error.offset)

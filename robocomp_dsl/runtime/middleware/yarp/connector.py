@@ -10,6 +10,7 @@ from typing import Any
 from robocomp_dsl.runtime.codec.bottle.from_bottle import as_items
 from robocomp_dsl.runtime.codec.bottle.values import vocab
 from robocomp_dsl.runtime.middleware.external_connector import ConnectorError
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress
 from robocomp_dsl.runtime.middleware.yarp.name_client import (
     NameClient,
@@ -17,7 +18,6 @@ from robocomp_dsl.runtime.middleware.yarp.name_client import (
     name_server_address,
 )
 from robocomp_dsl.runtime.middleware.yarp.outgoing import ask_admin
-from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost
 
 TIMEOUT_S = 2.0
 """Limit of one question to a port."""

@@ -17,7 +17,7 @@ from robocomp_dsl.runtime.codec.bottle.values import Bottle
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
 from robocomp_dsl.runtime.middleware.yarp import wire
 from robocomp_dsl.runtime.middleware.yarp.port_protocols import ListeningPort
-from robocomp_dsl.runtime.middleware.yarp.stream import MAX_LINE, ConnectionLost, Stream
+from robocomp_dsl.runtime.middleware.yarp.stream import MAX_LINE, YarpStream
 
 SET_UP_S = 10.0
 """A client that connects must name its carrier within this time."""
@@ -42,7 +42,7 @@ _HELP = (
 class Incoming:
     """A connection. `sender` is the name of the other port."""
 
-    def __init__(self, port: ListeningPort, stream: Stream, profile: Profile) -> None:
+    def __init__(self, port: ListeningPort, stream: YarpStream, profile: Profile) -> None:
         self.sender = ""
         self.carrier = ""
         self._port = port
@@ -50,22 +50,18 @@ class Incoming:
         self._profile = profile
 
     def run(self) -> None:
-        """Serve the connection until it ends."""
+        """Serve the connection until it ends. Raises `ConnectionLost`."""
         try:
             self._stream.deadline = time.monotonic() + SET_UP_S
             serve = self._accept()
             self._stream.deadline = None
             if serve:
                 serve()
-        except ConnectionLost:
-            pass
         except MalformedMessage as error:
             if self.carrier:
                 self._port.malformed(self.sender, error, "D")
             else:
                 self._port.report_malformed(self.sender, error)
-        finally:
-            self._stream.close()
 
     def close(self) -> None:
         """End the connection; called from any thread."""

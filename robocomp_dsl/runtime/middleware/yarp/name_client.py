@@ -12,8 +12,9 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress
-from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost, connect
+from robocomp_dsl.runtime.middleware.yarp.stream import YarpStream
 
 DEFAULT = ("127.0.0.1", 10000)
 TIMEOUT_S = 2.0
@@ -38,7 +39,7 @@ class NameClient:
         """The lines of a reply. Raises `NameServerLost`."""
         where = f"{self.at[0]}:{self.at[1]}"
         try:
-            stream = connect(self.at, TIMEOUT_S)
+            stream = YarpStream.connect(self.at, TIMEOUT_S)
         except ConnectionLost as error:
             raise NameServerLost(f"{where}: {error}") from None
         stream.deadline = time.monotonic() + TIMEOUT_S

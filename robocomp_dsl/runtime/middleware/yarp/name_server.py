@@ -26,7 +26,7 @@ from robocomp_dsl.runtime.middleware.yarp.name_client import (
 )
 from robocomp_dsl.runtime.middleware.yarp.port import YarpPort
 from robocomp_dsl.runtime.middleware.yarp.registrations import Registered, RegistrationTable
-from robocomp_dsl.runtime.middleware.yarp.stream import Stream
+from robocomp_dsl.runtime.middleware.yarp.stream import YarpStream
 
 _PREFIX = "NAME_SERVER"
 _NOT_KNOWN: list[Any] = ["port", ["error", -2, "port not known"]]
@@ -91,7 +91,7 @@ class NameServer(YarpPort):
         self.receiver = NameReceiver(self.table)
         self._table_ready.set()
 
-    def name_requests(self, stream: Stream) -> Callable[[], None]:
+    def name_requests(self, stream: YarpStream) -> Callable[[], None]:
         """See `YarpPort`."""
 
         def serve() -> None:

@@ -11,10 +11,11 @@ from collections.abc import Callable
 from robocomp_dsl.runtime.codec.bottle.text_reader import read_text
 from robocomp_dsl.runtime.codec.bottle.text_writer import write_text
 from robocomp_dsl.runtime.codec.bottle.values import Bottle
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 from robocomp_dsl.runtime.middleware.yarp import wire
 from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress
 from robocomp_dsl.runtime.middleware.yarp.name_client import NameClient, NameServerLost
-from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost, Stream, connect
+from robocomp_dsl.runtime.middleware.yarp.stream import YarpStream
 
 Resolve = Callable[[PortAddress], PortAddress]
 _WORDS = {"text": "CONNECT", "text_ack": "CONNACK"}
@@ -37,10 +38,10 @@ def resolver(names: NameClient) -> Resolve:
     return resolve
 
 
-def open_connection(address: PortAddress, sender: str, timeout: float) -> Stream:
+def open_connection(address: PortAddress, sender: str, timeout: float) -> YarpStream:
     """A connection to a port. Raises `ConnectionLost`."""
     deadline = time.monotonic() + timeout
-    stream = connect(address.socket, timeout)
+    stream = YarpStream.connect(address.socket, timeout)
     stream.deadline = deadline
     try:
         _set_up(stream, address.carrier, sender)
@@ -51,7 +52,7 @@ def open_connection(address: PortAddress, sender: str, timeout: float) -> Stream
     return stream
 
 
-def _set_up(stream: Stream, carrier: str, sender: str) -> None:
+def _set_up(stream: YarpStream, carrier: str, sender: str) -> None:
     if carrier in _WORDS:
         stream.send_line(f"{_WORDS[carrier]} {sender}")
         stream.line()
@@ -73,7 +74,7 @@ def end_bytes(carrier: str) -> bytes:
     return b"q\r\n" if carrier in _WORDS else wire.frame(b"", "q")
 
 
-def read_ack(stream: Stream, carrier: str) -> None:
+def read_ack(stream: YarpStream, carrier: str) -> None:
     """Read the acknowledgement of a message, if the carrier has one. Raises `ConnectionLost`."""
     if carrier == "tcp":
         if stream.take(8) != wire.ACK:

@@ -11,16 +11,16 @@ from robocomp_dsl.runtime.codec.bottle.profile import Profile
 from robocomp_dsl.runtime.codec.bottle.text_writer import write_text
 from robocomp_dsl.runtime.codec.bottle.values import Bottle
 from robocomp_dsl.runtime.errors import EncodeError
+from robocomp_dsl.runtime.middleware.tcp.outgoing_link import TcpMessage
+from robocomp_dsl.runtime.middleware.tcp.stream import Part, behind
 from robocomp_dsl.runtime.middleware.yarp import wire
 from robocomp_dsl.runtime.middleware.yarp.description import MAX_MESSAGE_BYTES
 
-Part = bytes | memoryview
 
-
-class OutgoingMessage:
+class OutgoingMessage(TcpMessage):
     """A message without a reply. Raises `EncodeError` if it is too large.
 
-    `size` are the bytes of the Bottle, `parts` and `wire_size` those of the message in binary form.
+    `size` are the bytes of the Bottle; `parts` are the message in binary form.
     """
 
     def __init__(self, bottle: Bottle, profile: Profile, envelope: str = "") -> None:
@@ -29,29 +29,26 @@ class OutgoingMessage:
         if self.size > MAX_MESSAGE_BYTES:
             raise EncodeError(f"a message has at most {MAX_MESSAGE_BYTES} bytes")
         head = wire.frame_head(self.size, "D", envelope)
-        self.parts: list[Part] = [head, *payload]
-        self.wire_size = len(head) + self.size
+        super().__init__(head, *payload)
         self._bottle = bottle
         self._envelope = envelope
-        self._owned: dict[bool, bytes] = {}
+        self._copy: bytes | None = None
+        self._text: TcpMessage | None = None
 
-    def owned(self, *, text: bool) -> bytes:
-        """All bytes, in memory that nobody changes."""
-        if text not in self._owned:
-            self._owned[text] = self._text() if text else b"".join(self.parts)
-        return self._owned[text]
+    def on_carrier(self, carrier: str) -> TcpMessage:
+        """The message in the form of a carrier."""
+        if not carrier.startswith("text"):
+            return self
+        if self._text is None:
+            head = f"D {self._envelope}" if self._envelope else "D"
+            text = f"{head}\r\n{write_text(self._bottle)}\r\n"
+            self._text = TcpMessage(text.encode(errors="surrogateescape"))
+        return self._text
 
-    def _text(self) -> bytes:
-        head = f"D {self._envelope}" if self._envelope else "D"
-        return f"{head}\r\n{write_text(self._bottle)}\r\n".encode(errors="surrogateescape")
-
-    def rest(self, sent: int) -> Part:
-        """The bytes behind the first `sent`, in memory that nobody changes."""
-        if False in self._owned or not sent:
-            return memoryview(self.owned(text=False))[sent:]
-        rest = []
-        for part in self.parts:
-            if sent < len(part):
-                rest.append(memoryview(part)[sent:])
-            sent = max(0, sent - len(part))
-        return b"".join(rest)
+    def rest(self, sent: int) -> tuple[Part, ...]:
+        """See `TcpMessage`; the copy of a whole message serves all readers."""
+        if self._copy is None:
+            if sent:
+                return (b"".join(behind(self.parts, sent)),)
+            self._copy = b"".join(self.parts)
+        return (memoryview(self._copy)[sent:],)

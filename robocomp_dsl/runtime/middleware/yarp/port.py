@@ -6,26 +6,20 @@ connect, ask and write to.
 
 from __future__ import annotations
 
-import contextlib
-import logging
-import socket
 import threading
-import time
 from collections.abc import Callable
 
 from robocomp_dsl.runtime.codec.bottle.profile import PROFILE_3, Profile
 from robocomp_dsl.runtime.codec.bottle.values import Bottle
-from robocomp_dsl.runtime.component.throttle import Throttle
-from robocomp_dsl.runtime.component.user_errors import describe_error
-from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, MiddlewareError
+from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
+from robocomp_dsl.runtime.middleware.tcp.listener import TcpListener
 from robocomp_dsl.runtime.middleware.yarp.admin import answer_admin
 from robocomp_dsl.runtime.middleware.yarp.incoming import Incoming
 from robocomp_dsl.runtime.middleware.yarp.port_protocols import Outputs, Receiver
-from robocomp_dsl.runtime.middleware.yarp.stream import Stream, reason
+from robocomp_dsl.runtime.middleware.yarp.stream import YarpStream
 
 MAX_CONNECTIONS = 256
-"""Incoming connections of one port; further ones are closed at once."""
-log = logging.getLogger("robocomp")
+"""Incoming connections of one port."""
 
 
 class YarpPort:
@@ -47,58 +41,27 @@ class YarpPort:
         self.profile = profile
         self.is_rpc = is_rpc
         self.properties: dict[str, Bottle] = {}
-        self._throttle = Throttle()
         self._lock = threading.Lock()
         self._connections: set[Incoming] = set()
-        self._closed = False
-        try:
-            self._socket = socket.create_server(at)
-        except (OSError, OverflowError) as error:
-            where = f"{at[0]}:{at[1]}"
-            raise MiddlewareError(f"YARP cannot listen at {where}: {reason(error)}") from None
-        self.host = at[0]
-        self.number: int = self._socket.getsockname()[1]
-        self._thread = threading.Thread(target=self._accept, name=f"yarp {name}", daemon=True)
-        self._thread.start()
+        self._listener = TcpListener(name, "YARP", at, YarpStream, self._serve, MAX_CONNECTIONS)
+        self.host, self.number = at[0], self._listener.number
+        self._listener.start()
 
-    def _accept(self) -> None:
-        while not self._closed:
-            try:
-                accepted, _ = self._socket.accept()
-            except OSError:
-                if self._closed:
-                    return
-                # Too many open files: the connection stays in the queue of the system.
-                time.sleep(0.1)
-                continue
-            self._start(Stream(accepted))
-
-    def _start(self, stream: Stream) -> None:
+    def _serve(self, stream: YarpStream) -> bool:
         incoming = Incoming(self, stream, self.profile)
         with self._lock:
-            accepted = not self._closed and len(self._connections) < MAX_CONNECTIONS
-            if accepted:
-                self._connections.add(incoming)
-        if not accepted:
-            stream.close()
-            return
-        name = f"yarp {self.name} input"
-        threading.Thread(target=self._serve, args=(incoming,), name=name, daemon=True).start()
-
-    def _serve(self, incoming: Incoming) -> None:
+            self._connections.add(incoming)
         try:
             incoming.run()
-        except Exception as error:
-            text = describe_error(error)
-            log.error("%s: a connection failed: %s", self.name, text)  # noqa: TRY400 - described
         finally:
             with self._lock:
                 self._connections.discard(incoming)
+        return False
 
     def connected(self, incoming: Incoming) -> None:
         """A connection has told its name and carrier."""
 
-    def name_requests(self, stream: Stream) -> Callable[[], None] | None:
+    def name_requests(self, stream: YarpStream) -> Callable[[], None] | None:
         """What serves the requests of the name server's own carrier; None: no name server."""
         del stream
         return None
@@ -148,8 +111,8 @@ class YarpPort:
 
     def report_malformed(self, sender: str, error: MalformedMessage) -> None:
         """Log invalid bytes, limited in rate."""
-        if self._throttle.allows("malformed"):
-            log.warning("%s: %s sent an invalid message: %s", self.name, sender or "a peer", error)
+        text = f"{sender or 'a peer'} sent an invalid message: {error}"
+        self._listener.report("malformed", text)
 
     def describe(self) -> list[str]:
         """What `yarp ping` and the command `*` show."""
@@ -167,14 +130,4 @@ class YarpPort:
 
     def close(self) -> None:
         """Accept nothing more, and end all connections."""
-        with self._lock:
-            self._closed = True
-            connections = list(self._connections)
-        # `shutdown` wakes the thread that accepts; `close` alone would not.
-        with contextlib.suppress(OSError):
-            self._socket.shutdown(socket.SHUT_RDWR)
-        self._socket.close()
-        for each in connections:
-            each.close()
-        if self._thread is not threading.current_thread():
-            self._thread.join(1.0)
+        self._listener.close()

@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 from robocomp_dsl.runtime.codec.bottle.values import Bottle
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
-from robocomp_dsl.runtime.middleware.yarp.stream import Stream
+from robocomp_dsl.runtime.middleware.yarp.stream import YarpStream
 
 
 class Receiver(Protocol):
@@ -62,7 +62,7 @@ class ListeningPort(Protocol):
     def connected(self, incoming: Any) -> None:
         """A connection has sent its name and carrier."""
 
-    def name_requests(self, stream: Stream) -> Callable[[], None] | None:
+    def name_requests(self, stream: YarpStream) -> Callable[[], None] | None:
         """What serves the requests of the name server's own carrier; None: no name server."""
 
     def handle(

@@ -17,14 +17,15 @@ from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.message_stamp import published_stamp
+from robocomp_dsl.runtime.middleware.tcp.outgoing_link import CONNECT_S
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 from robocomp_dsl.runtime.middleware.transport import BoundOperation
 from robocomp_dsl.runtime.middleware.yarp import outgoing
 from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress, parse_address
 from robocomp_dsl.runtime.middleware.yarp.envelopes import write_envelope
 from robocomp_dsl.runtime.middleware.yarp.outgoing import Resolve
 from robocomp_dsl.runtime.middleware.yarp.outgoing_message import OutgoingMessage
-from robocomp_dsl.runtime.middleware.yarp.output_link import CONNECT_S, OutputLink
-from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost
+from robocomp_dsl.runtime.middleware.yarp.output_link import OutputLink
 from robocomp_dsl.runtime.middleware.yarp.valid_addresses import CARRIERS
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
@@ -47,11 +48,8 @@ class OutputLinks:
         link.start()
 
     def _link(self, address: PortAddress, *, ends: bool = False) -> OutputLink:
-        qos = self._at.qos
-        reliable, on_end = qos.holds_publisher, self._remove if ends else None
-        return OutputLink(
-            address, self._sender, self._resolve, qos.depth, reliable=reliable, on_end=on_end
-        )
+        on_end = self._remove if ends else None
+        return OutputLink(address, self._sender, self._resolve, self._at.qos, on_end)
 
     def _replace(self, name: str, link: OutputLink) -> None:
         with self._lock:
@@ -145,7 +143,7 @@ class YarpPublisher:
 
         def send(message: OutgoingMessage, _number: bytes) -> None:
             for link in links.links.values():
-                link.send(message, counts)
+                link.send(message.on_carrier(link.address.carrier), counts)
             counts.bytes_out += message.size
 
         return BoundOperation(encode, send)

@@ -11,12 +11,12 @@ import threading
 from dataclasses import dataclass, field
 
 from robocomp_dsl.runtime.codec.bottle.values import vocab
+from robocomp_dsl.runtime.middleware.tcp.stream import ConnectionLost
 from robocomp_dsl.runtime.middleware.yarp import outgoing
 from robocomp_dsl.runtime.middleware.yarp.addresses import PortAddress
 from robocomp_dsl.runtime.middleware.yarp.name_client import NameClient, NameServerLost
 from robocomp_dsl.runtime.middleware.yarp.outgoing import Resolve
 from robocomp_dsl.runtime.middleware.yarp.port import YarpPort
-from robocomp_dsl.runtime.middleware.yarp.stream import ConnectionLost
 
 INTERVAL_S = 0.5
 """The name server and the publishers are checked so often."""

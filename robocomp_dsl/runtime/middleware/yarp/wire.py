@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from robocomp_dsl.runtime.errors import MalformedMessage
 from robocomp_dsl.runtime.middleware.yarp.description import MAX_MESSAGE_BYTES
-from robocomp_dsl.runtime.middleware.yarp.stream import Stream
+from robocomp_dsl.runtime.middleware.yarp.stream import YarpStream
 
 _NUMBER = struct.Struct("<2si2s")
 _INT = struct.Struct("<i")
@@ -53,7 +53,7 @@ def set_up(carrier: str, sender: str) -> bytes:
     return number(_SPECIFIER_BASE + specifier) + _INT.pack(len(name)) + name
 
 
-def read_sender(stream: Stream) -> str:
+def read_sender(stream: YarpStream) -> str:
     """The name of a client, without the modifiers of its carrier."""
     (size,) = _INT.unpack(stream.take(4))
     data = stream.take(min(max(size, 1), MAX_NAME))
@@ -90,7 +90,7 @@ class YarpMessage:
     size: int
 
 
-def read_message(stream: Stream) -> YarpMessage:
+def read_message(stream: YarpStream) -> YarpMessage:
     """The next message. Raises `MalformedMessage` if the bytes are no frame, `ConnectionLost`."""
     head = read_number(stream.take(8))
     if head != 10:
@@ -101,7 +101,7 @@ def read_message(stream: Stream) -> YarpMessage:
     size = sum(sizes)
     if min(sizes, default=0) < 0 or size > MAX_MESSAGE_BYTES:
         raise MalformedMessage(f"the frame announces blocks of {size} bytes in total")
-    return _split(stream.take_view(size), size)
+    return _split(memoryview(stream.take_view(size)), size)
 
 
 def _split(data: memoryview, size: int) -> YarpMessage:

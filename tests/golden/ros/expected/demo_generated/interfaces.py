@@ -26,7 +26,12 @@ class PointSequence(rt.StructArray[Point]):
     channel = rt.UInt8Column()
 
 
-class Cloud(rt.Struct, type_id="demo_msgs/msg/Cloud", rename={"lambda_": "lambda"}):
+class Cloud(
+    rt.Struct,
+    type_id="demo_msgs/msg/Cloud",
+    definition='byte  EMPTY=0\nbyte  DENSE=1\nfloat32 MAX_RANGE=12.5\nstring FRAME="base"\nint8 offset -1\nuint16 width\nuint32 height\nuint64 stamp\nstring<=16 frame "base"\nPoint[] points\nPoint[2] corners\nPoint[<=3] marks\nstring[] labels\nstring[2] pair ["a", "b\\"c"]\nfloat64[9] covariance\nint16[<=4] few [1, 2]\nbool[] flags\nbyte[] raw\nuint64[2] lambda',
+    rename={"lambda_": "lambda"},
+):
     """Points with covariance.
 
     Only points within the range are listed.

@@ -1,0 +1,1 @@
+"""TCP connections, as the middlewares `ros1` and `yarp` use them."""
