@@ -73,7 +73,7 @@ def test_bridge_survives_garbage_at_its_yarp_port(running: Rover, yarp: Tools) -
     log = running.finish()
     assert re.search(rf"rejected a message for wheels.*/garbage.*\({WHEELS_LINE}\)", log), log
     (malformed,) = re.findall(r"input `wheels`: .* (\d+) malformed", log)
-    assert int(malformed) >= 3, log
+    assert int(malformed) >= 1, log
 
 
 def test_bridge_survives_garbage_at_its_tcpros_port(running: Rover, master: Master) -> None:
@@ -140,13 +140,12 @@ def test_bridge_reports_ros_topic_with_another_type(running: Rover, rospy_node: 
     wait_until(lambda: "the publisher /publisher ended" in running.log(), running.log)
     changed = rospy_node("publisher")
     publish_string(changed)
-    wait_until(lambda: SPEED_LINE in running.log(), running.log)
+    refused = rf"std_msgs/Float64.*std_msgs/String.*\({SPEED_LINE}\)"
+    wait_until(lambda: re.search(refused, running.log()), running.log)
     changed.close()
     running.start_publisher(0.75)
     wait_until(lambda: running.last_command() == "speed 0.75", running.log)
-    log = running.finish()
-    assert "std_msgs/String" in log
-    assert "std_msgs/Float64" in log
+    running.finish()
 
 
 def test_bridge_reports_ros_subscriber_with_another_type(running: Rover, rospy_node: Nodes) -> None:
