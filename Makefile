@@ -63,7 +63,7 @@ test-peers: $(READY)
 	$(BIN)/python -m pytest -q -m peers tests/middleware tests/bridge --ignore tests/middleware/ros2
 	$(BIN)/python -m pytest -q -n $(WORKERS) tests/middleware/conformance --middleware ice
 	tests/middleware/ros2/install-peers.sh $(PYTHON) build/peers-venv
-	build/peers-venv/bin/python -m pytest -q -m peers tests/middleware/ros2
+	build/peers-venv/bin/python -m pytest -q -m peers tests/middleware/ros2 tests/bridge/peers/test_ros2_bridge_peers.py
 
 vsix:
 	cd editors/vscode && npm ci --no-audit --no-fund && npm run --silent package

@@ -73,6 +73,10 @@ class CallRejected(MiddlewareError):
     """A monitor of the connection rejected the call, or another connection wins the input."""
 
 
+class ReportedFailure(MiddlewareError):
+    """A request failed; the log has been told why. The message for the caller has the place."""
+
+
 class RejectedByReceiver(CallRejected):
     """A monitor of the served port rejected the call; the caller gets a `CallRejected`.
 

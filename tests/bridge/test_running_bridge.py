@@ -20,7 +20,7 @@ from robocomp_dsl.runtime.bridge.spec import (
 )
 from robocomp_dsl.runtime.component.lifecycle import Lifecycle
 from robocomp_dsl.runtime.component.statistics import Statistics
-from robocomp_dsl.runtime.errors import EncodeError, NoServer
+from robocomp_dsl.runtime.errors import EncodeError, NoServer, ReportedFailure
 
 
 class SteppedClock:
@@ -260,7 +260,7 @@ def test_bridge_service_passes_failure_on_and_counts_it(caplog: pytest.LogCaptur
     spec = BridgeSpec("x.bdsl", services=(ServiceSpec("s", "s", "call", answer, {"": "x.bdsl:9"}),))
     bridge = RunningBridge(spec, Host(), {}, Statistics())
     assert bridge.services["s"].answer(2.0) == 0.5
-    with pytest.raises(ZeroDivisionError):
+    with pytest.raises(ReportedFailure, match=r"division by zero .*\(x.bdsl:9\)"):
         bridge.services["s"].answer(0.0)
     assert "service `s`: failed: motors.on: ZeroDivisionError" in caplog.text
     assert bridge.services["s"].counts.messages == 2

@@ -21,7 +21,9 @@ def broken(name: str) -> tuple[str, str]:
     changes = [change]
     if name in NESTED:
         changes.insert(0, ("2_type = list", f"2_type = {NESTED[name]}"))
-    changes = [(old, new.replace("lab_msgs/Shape", "geometry_msgs/Vector3")) for old, new in changes]
+    changes = [
+        (old, new.replace("lab_msgs/Shape", "geometry_msgs/Vector3")) for old, new in changes
+    ]
     return replaced(text, *changes), message
 
 

@@ -70,6 +70,8 @@ def _number_type(value: Expression, operator: str, context: BridgeContext) -> Pr
         message = f"`{operator}` calculates with numbers; this is {a_type(found)}"
         is_text = isinstance(found, Primitive) and found.is_text
         help_ = f"`number({value.span.text})` converts" if is_text else ""
+        if isinstance(value, ConstantValue) and is_text:
+            help_ = "texts cannot be joined; declare a function: `function joined(…) -> string;`"
         context.fail(codes.INVALID_ARITHMETIC, value.span, message, help_)
     return common_number(numbers)
 

@@ -39,10 +39,14 @@ def item_type(value: Expression, name: str, context: BridgeContext) -> Type:
         return INT
     if isinstance(value.type, Primitive) and value.type.is_text:
         return STRING
-    if isinstance(value.type, Sequence) and value.type.is_anonymous:
-        # The array of a field in a ROS definition has no declaration that IDSL can name.
-        return context.types.sequence(value.type.element, 0, value.span)
-    return value.type
+    return _declared(value.type, value, context)
+
+
+def _declared(type_: Type, value: Expression, context: BridgeContext) -> Type:
+    """The type, with a declaration of its own if it is the array of a field of a ROS message."""
+    if isinstance(type_, Sequence) and type_.is_anonymous:
+        return context.types.sequence(type_.element, 0, value.span)
+    return type_
 
 
 def _unit(item: Expression) -> str:

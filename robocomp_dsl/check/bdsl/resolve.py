@@ -6,6 +6,7 @@ the errors of the files that it imports.
 
 from __future__ import annotations
 
+import re
 from typing import TypeAlias
 
 from robocomp_dsl.check.bdsl.actions import resolve_action
@@ -105,6 +106,8 @@ def _check_content(tree: ast.Bridge, context: BridgeContext) -> None:
             help="add an `output`, a `service` or an `action`",
         )
         return
+    # What a faulty statement names is not called unused.
+    used = context.used_names | (_mentioned(tree) if context.report.has_errors else set())
     for kind, items, declared in (
         ("input", tree.inputs, context.inputs),
         ("function", tree.functions, context.functions),
@@ -112,10 +115,19 @@ def _check_content(tree: ast.Bridge, context: BridgeContext) -> None:
     ):
         for item in items:
             is_valid = declared.get(item.name.text) is not None
-            if is_valid and item.name.text not in context.used_names:
+            if is_valid and item.name.text not in used:
                 context.report.add(
                     codes.UNUSED_IN_BRIDGE,
                     item.name.span,
                     f"nothing uses the {kind} `{item.name.text}`",
                     help="remove it" if kind == "function" else "remove it, or use it in an output",
                 )
+
+
+def _mentioned(tree: ast.Bridge) -> set[str]:
+    """The words in actions, in the bodies of outputs, and in the values of outputs and hubs."""
+    parts = [action.span for action in tree.actions]
+    parts += [value.span for hub in tree.hubs for value in hub.values]
+    for output in tree.outputs:
+        parts += [each.span for each in (output.value, *output.fields) if each is not None]
+    return {word for part in parts for word in re.findall(r"\w+", part.text)}

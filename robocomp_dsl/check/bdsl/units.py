@@ -67,6 +67,18 @@ def declared_unit(unit: Unit | None, type_: Type, report: Report) -> str:
     return valid_unit(unit, report)
 
 
+_WRITTEN_OUT = {
+    **dict.fromkeys(("degree", "degrees", "grad"), "deg"),
+    **dict.fromkeys(("radian", "radians"), "rad"),
+    **dict.fromkeys(("meter", "meters", "metre", "metres"), "m"),
+    **dict.fromkeys(("second", "seconds", "sec", "secs"), "s"),
+    **dict.fromkeys(("millimeter", "millimeters", "millimetres"), "mm"),
+    **dict.fromkeys(("millisecond", "milliseconds", "msec"), "ms"),
+    **dict.fromkeys(("newton", "newtons"), "N"),
+}
+"""Symbols of units whose names people write out."""
+
+
 def valid_unit(unit: Unit, report: Report) -> str:
     """The text of a unit; an invalid one is reported, and empty."""
     text = unit.text.strip()
@@ -78,8 +90,9 @@ def valid_unit(unit: Unit, report: Report) -> str:
         report.add(codes.INVALID_UNIT, unit.span, f"invalid unit: {error}")
         return ""
     for word in units.unknown_words(text):
-        guess = nearest(word, units.known_units())
-        is_case = guess is not None and guess.lower() == word.lower()
+        symbol = _WRITTEN_OUT.get(word.lower())
+        guess = symbol or nearest(word, units.known_units())
+        is_case = guess is not None and (symbol or guess.lower() == word.lower())
         fixed = f"[{text.replace(word, guess)}]" if guess and is_case else ""
         report.add(
             codes.UNKNOWN_UNIT,

@@ -29,10 +29,14 @@ class ImportSuggestion(ValueRecord):
 
     paths: tuple[Path, ...]
     fix: Fix | None
+    written: str = ""
+    """What to import, if it is a definition of ROS: its path says nothing to the user."""
 
     @property
     def help(self) -> str:
         """The help text."""
+        if self.written:
+            return f'add `import "{self.written}";`'
         verb = "declares" if len(self.paths) == 1 else "declare"
         return f"{join_names([str(path) for path in self.paths], most=3)} {verb} it"
 
@@ -72,7 +76,7 @@ def _suggest_ros(
         written = f"{name.module.text}/{suffix[1:]}/{plain}{suffix}"
         path = search.ros.find(written, source.path, source.path) if plain else None
         if path is not None:
-            return ImportSuggestion((path,), add_import(written, source, imports))
+            return ImportSuggestion((path,), add_import(written, source, imports), written)
     return None
 
 

@@ -156,7 +156,9 @@ class TypeResolver:
         offer = self._visible.suggest_import(name) if searched else None
         if offer is not None:
             guess, fix = None, offer.fix
-            help_text = f"{offer.help}, but {offer.is_not} imported"
+            help_text = offer.help
+            if not offer.written:
+                help_text += f", but {offer.is_not} imported"
         self._report.add(
             codes.UNKNOWN_TYPE,
             name.span,

@@ -39,12 +39,12 @@ class BridgeCounts:
         """The mean latency in ms; 0.0 without any."""
         return self.latency_total_ns / self.latencies / 1e6 if self.latencies else 0.0
 
-    def summary(self, verb: str) -> str:
+    def summary(self, verb: str, lost: str = "dropped") -> str:
         """`12 sent, 3 dropped (reason: 3), latency mean 0.1 ms, max 0.4 ms`."""
         parts = [f"{self.messages} {verb}"]
         if self.dropped:
             reasons = "; ".join(f"{reason}: {n}" for reason, n in self.dropped.items())
-            parts.append(f"{self.dropped.total()} dropped ({reasons})")
+            parts.append(f"{self.dropped.total()} {lost} ({reasons})")
         if self.latencies:
             parts.append(
                 f"latency mean {self.latency_mean_ms:.3f} ms,"

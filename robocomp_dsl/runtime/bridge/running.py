@@ -188,14 +188,14 @@ class RunningBridge:
 
     def summary(self) -> list[str]:
         """The counts of all inputs, outputs, services and actions, a line each."""
-        kinds: tuple[tuple[str, str, Mapping[str, CountedPort]], ...] = (
-            ("input", "received", self.inputs),
-            ("output", "sent", self.outputs),
-            ("service", "answered", self.services),
+        kinds: tuple[tuple[str, str, str, Mapping[str, CountedPort]], ...] = (
+            ("input", "received", "dropped", self.inputs),
+            ("output", "sent", "not sent", self.outputs),
+            ("service", "requests", "failed", self.services),
         )
         lines = [
-            f"{kind} `{name}`: {port.counts.summary(verb)}{self._transport_losses(port)}"
-            for kind, verb, ports in kinds
+            f"{kind} `{name}`: {port.counts.summary(verb, lost)}{self._transport_losses(port)}"
+            for kind, verb, lost, ports in kinds
             for name, port in ports.items()
         ]
         for name, action in self.actions.items():

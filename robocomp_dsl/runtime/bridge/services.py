@@ -11,9 +11,11 @@ from typing import Any
 
 from robocomp_dsl.runtime.bridge.context import MessageContext
 from robocomp_dsl.runtime.bridge.counts import BridgeCounts, LossReport
-from robocomp_dsl.runtime.bridge.failures import describe_failure
+from robocomp_dsl.runtime.bridge.failures import NOT_SENT, describe_failure
 from robocomp_dsl.runtime.bridge.spec import ServiceSpec
-from robocomp_dsl.runtime.errors import DeclaredError
+from robocomp_dsl.runtime.errors import DeclaredError, ReportedFailure
+
+CALL_FAILED = "a call failed"
 
 
 class BridgedService:
@@ -33,7 +35,7 @@ class BridgedService:
         self._losses = losses
 
     def answer(self, *arguments: Any) -> Any:
-        """Answer a request. Raises what the called services and functions raise."""
+        """Answer a request. Raises declared errors of called services, else `ReportedFailure`."""
         begun = perf_counter_ns()
         context = self._create_context(self.counts.messages)
         self.counts.messages += 1
@@ -43,7 +45,8 @@ class BridgedService:
             raise
         except Exception as error:
             failure = describe_failure(error, context.field, self.spec.places)
-            self._losses.lose_reply(failure.reason, failure.text, failure.place)
-            raise
+            reason = CALL_FAILED if failure.reason == NOT_SENT else failure.reason
+            self._losses.lose_reply(reason, failure.text, failure.place)
+            raise ReportedFailure(f"{failure.text} ({failure.place})") from error
         self.counts.add_latency(perf_counter_ns() - begun)
         return reply

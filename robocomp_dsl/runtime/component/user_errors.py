@@ -12,6 +12,8 @@ import sys
 import traceback
 from pathlib import Path
 
+from robocomp_dsl.runtime.errors import ReportedFailure
+
 TRACEBACK_VARIABLE = "ROBOCOMP_TRACEBACK"
 HINT = " [--traceback shows the calls]"
 
@@ -43,7 +45,12 @@ def log_failure(what: str, error: BaseException) -> None:
 
 
 def describe_error(error: BaseException) -> str:
-    """`Type: message (file:line)`, with the innermost location in user code."""
+    """`Type: message (file:line)`, with the innermost location in user code.
+
+    A `ReportedFailure` has its place in its message.
+    """
+    if isinstance(error, ReportedFailure):
+        return message_of(error)
     location = user_location(traceback.extract_tb(error.__traceback__))
     message = message_of(error)
     text = f"{type(error).__name__}: {message}" if message else type(error).__name__

@@ -24,7 +24,13 @@ from robocomp_dsl.runtime.component.user_errors import log_failure
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.message_stamp import with_header_stamp
 from robocomp_dsl.runtime.connection.ports import OperationCallable
-from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, RejectedByReceiver, Timeout
+from robocomp_dsl.runtime.errors import (
+    EncodeError,
+    MalformedMessage,
+    RejectedByReceiver,
+    ReportedFailure,
+    Timeout,
+)
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.losses import LossCounter
@@ -155,11 +161,11 @@ class IncomingOperation:
     def report(self, error: BaseException) -> None:
         """Count and log a message that failed: malformed, or its handler or result failed.
 
-        A declared exception of a query, and a rejection by a monitor, is only counted.
+        A declared exception of a query, and what was reported already, is only counted.
         """
         counts = self.counts
         counts.failures += 1
-        if isinstance(error, (*self.operation.throws, RejectedByReceiver)):
+        if isinstance(error, (*self.operation.throws, RejectedByReceiver, ReportedFailure)):
             return
         what = f"{counts.port}.{counts.operation}"
         if isinstance(error, EncodeError):

@@ -16,6 +16,7 @@ from robocomp_dsl.syntax.recovery import repair_identifiers as words
 from robocomp_dsl.syntax.recovery import repair_punctuation as signs
 from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair
+from robocomp_dsl.syntax.recovery.repair_bridge import bridge_mistakes
 
 _CLOSED = ("RBRACE", "_SEMI")
 
@@ -47,6 +48,7 @@ def _progress(context: ErrorContext, repair: Repair) -> int:
 def _proposals(context: ErrorContext, item: list[Token], keep: int) -> Iterator[Repair]:
     """All possible repairs, the most likely first."""
     accepted = context.accepted_terminals()
+    yield from bridge_mistakes(context, accepted)
     yield from signs.missing_semicolon(context)
     yield from signs.commented_semicolon(context)
     yield from signs.earlier_semicolon(context, item, keep)

@@ -16,7 +16,10 @@ Bridge rover
 {
     input wheels : double[2] [deg] over yarp at "/rover/wheels:o";
     input speed : std_msgs::Float64 over ros1 at "/rover/speed";
-    output angles : std_msgs::Float64MultiArray over ros1 at "/rover/angles" { data = wheels to [deg]; };
+    output angles : std_msgs::Float64MultiArray over ros1 at "/rover/angles"
+    {
+        data = wheels to [deg];
+    };
     output command over yarp at "/rover/command:i" { item "speed"; item speed.data; };
     output setting over yarp at "/rover/rpc:i" { item "set"; item speed.data; };
 };

@@ -1,4 +1,4 @@
-"""Bytes that are no messages arrive at the ports of a bridge, and types change, while data flows."""
+"""Bytes that are no messages arrive at the ports of a bridge, and types change."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import contextlib
 import os
 import re
 import socket
-import struct
 from urllib.parse import urlsplit
 
 import pytest
@@ -89,7 +88,8 @@ def test_bridge_survives_garbage_at_its_tcpros_port(running: Rover, master: Mast
         running.wait_for_more()
     node.close()
     log = running.finish()
-    print(log)
+    assert "a peer sent an invalid header" in log
+    assert "refused a subscriber: /garbage subscribes to /rover/angles as std_msgs/String" in log
 
 
 @pytest.mark.parametrize("size", [0, 3, 9])
@@ -105,7 +105,6 @@ def test_bridge_survives_malformed_messages_of_a_rospy_publisher(
     wait_until(lambda: re.search(rejected, running.log()), running.log)
     running.wait_for_more()
     log = running.finish()
-    print(log)
     assert re.search("input `speed`: .* 3 malformed", log), log
 
 
@@ -128,7 +127,6 @@ def test_bridge_reports_yarp_writer_with_another_shape(
     wait_until(lambda: running.last_angle() == 180.0, running.log)
     rover.report_time("YARP writer with the former shape", writer.ready_at)
     log = running.finish()
-    print(log)
     assert reason in log
 
 
@@ -147,7 +145,6 @@ def test_bridge_reports_ros_topic_with_another_type(running: Rover, rospy_node: 
     running.start_publisher(0.75)
     wait_until(lambda: running.last_command() == "speed 0.75", running.log)
     log = running.finish()
-    print(log)
     assert "std_msgs/String" in log
     assert "std_msgs/Float64" in log
 
@@ -157,4 +154,4 @@ def test_bridge_reports_ros_subscriber_with_another_type(running: Rover, rospy_n
     changed.command("subscribe", rover.ANGLES, "std_msgs/String")
     wait_until(lambda: "std_msgs/String" in running.log(), running.log)
     running.wait_for_more()
-    print(running.finish())
+    running.finish()

@@ -62,7 +62,7 @@ def test_bridge_loses_messages_of_hanging_readers_only(
     start = resident_bytes(running.pid)
     hanging = rf"/eyes/hanging:o: /hanging:i does not take .* \({line('output hanging')}\)"
     wait_until(lambda: publish() and re.search(hanging, running.log), lambda: running.log)
-    lost = rf"the subscriber /slow does not take .* \({line('output slow')}\)"
+    lost = rf"/slow does not take .* \({line('output slow')}\)"
     wait_until(lambda: publish() and re.search(lost, running.log), lambda: running.log)
     count = publish()
     wait_until(lambda: publish() > count + 100, lambda: running.log)

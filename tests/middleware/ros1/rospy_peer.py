@@ -103,6 +103,10 @@ class Peer:
 
         threading.Thread(target=run, daemon=True).start()
 
+    def stream_stamped(self, topic, stamp, period):
+        """Publish with this time stamp, in s and ns."""
+        self.stream(topic, {"header.stamp": rospy.Time(*stamp)}, period)
+
     def stop(self, topic):
         self.streams[topic].set()
 
@@ -134,6 +138,29 @@ class Peer:
         except rospy.ServiceException as error:
             return ["failed", str(error)]
         return [reply.success, reply.message]
+
+    def serve(self, name):
+        """Serve SetBool: succeeds for true, with the request as its message."""
+        rospy.Service(name, SetBool, lambda r: SetBoolResponse(r.data, f"rospy got {r.data}"))
+
+    def stream_images(self, topic, encoding, width, height, period):
+        """Publish images whose first byte counts, stamped with their number in s."""
+        self.advertise(topic, "sensor_msgs/Image")
+        message = self.publishers[topic].data_class()
+        message.encoding, message.width, message.height = encoding, width, height
+        message.step = width * (3 if encoding == "rgb8" else 1)
+        pixels = bytearray(message.step * height)
+        pixels[-1] = 77
+
+        def run():
+            for number in range(1, 1_000_000):
+                pixels[0] = number % 256
+                message.data = bytes(pixels)
+                message.header.stamp = rospy.Time(1_700_000_000 + number, 250_000_000)
+                self.publishers[topic].publish(message)
+                time.sleep(period)
+
+        threading.Thread(target=run, daemon=True).start()
 
     def call_often(self, name, count):
         rospy.wait_for_service(name, 30)
