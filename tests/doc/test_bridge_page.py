@@ -36,6 +36,23 @@ Bridge rover
 };
 """
 
+HANDS = """
+import "my_msgs/action/Grasp.action";
+
+Bridge hands
+{
+    /** Closes the hand. */
+    action grasp : my_msgs::Grasp over ros1 at "/grasp"
+    {
+        command close : (double width) over yarp at "/hand:i" { width = goal.width; };
+        state hand : (double width [m], bool moving) over yarp at "/hand:o";
+        feedback.width = hand.width to [m];
+        succeed when hand.moving == false and hand.width < 0.02 [m];
+        timeout 10 s;
+    };
+};
+"""
+
 
 def test_bridge_page_shows_parts_messages_and_drawing(tmp_path: Path) -> None:
     path = tmp_path / "rover.bdsl"
@@ -61,3 +78,22 @@ def test_bridge_page_shows_parts_messages_and_drawing(tmp_path: Path) -> None:
     for name in ("/left:o", "/right:o", "wheels", "/states", "/enable", "/other"):
         assert name in drawing
     assert 'href="bridges/rover.html"' in files["index.html"]
+
+
+def test_bridge_page_shows_actions(tmp_path: Path) -> None:
+    actions = tmp_path / "my_msgs" / "action"
+    actions.mkdir(parents=True)
+    (actions / "Grasp.action").write_text("float64 width\n---\n---\nfloat64 width\n")
+    path = tmp_path / "hands.bdsl"
+    path.write_text(HANDS)
+    report = Report()
+    subject = read_subject([path], "Hands", Workspace(()), report)
+    assert not report.has_errors
+    page = next(f.text for f in documentation(subject) if f.path == "bridges/hands.md")
+    for cells in (
+        ("`grasp`", "`ros1`", "`/grasp`", "10\u00a0s", "Closes the hand."),
+        ("`grasp, command close`", "`width`", "`goal.width`"),
+        ("`grasp, feedback`", "`width`", "`hand.width to [m]`"),
+        ("`grasp`", "succeed when", "`hand.moving == false and hand.width < 0.02 [m]`"),
+    ):
+        assert any(all(cell in line for cell in cells) for line in page.splitlines()), (cells, page)

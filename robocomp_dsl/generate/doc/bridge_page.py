@@ -24,6 +24,7 @@ from robocomp_dsl.generate.doc.nodes import (
 from robocomp_dsl.generate.doc.prose import flatten_doc, parse_prose
 from robocomp_dsl.generate.doc.site import DocumentationSite
 from robocomp_dsl.model.bridge import Bridge, BridgeOutput, BridgeService
+from robocomp_dsl.model.bridge_actions import BridgeAction
 from robocomp_dsl.model.bridge_ports import BridgeFunction, BridgeInput, BridgePort
 from robocomp_dsl.model.bridge_values import (
     BridgeHub,
@@ -41,6 +42,8 @@ _OUTPUTS = ("output", "message", "over", "address", "sent", "quality", "what it 
 _MESSAGES = ("output", "field", "value", "conversion")
 _SERVICES = ("service", "operation", "over", "address", "what it is")
 _CALLS = ("service", "field", "value", "conversion")
+_ACTIONS = ("action", "goal", "over", "address", "timeout", "what it is")
+_GOALS = ("action", "field", "value", "conversion")
 _FUNCTIONS = ("function", "takes", "returns", "what it is")
 
 
@@ -74,6 +77,10 @@ def _blocks(bridge: Bridge, site: DocumentationSite) -> Iterator[Block]:
         [_service(s, site) for s in bridge.services],
     )
     yield from _section("Calls", _CALLS, _replies(bridge))
+    rows = [_action(action, site) for action in bridge.actions]
+    yield from _section("Actions", _ACTIONS, rows)
+    rows = [row for action in bridge.actions for row in _action_rows(action)]
+    yield from _section("Goals", _GOALS, rows)
     yield from _section(
         "Functions",
         _FUNCTIONS,
@@ -132,6 +139,30 @@ def _service(service: BridgeService, site: DocumentationSite) -> TableRow:
     operation = (*site.declaration_link(port.interface), *plain_text(f".{port.operation.name}"))
     over, address = _place(port)
     return TableRow((inline_code(service.name), operation, over, address, flatten_doc(service.doc)))
+
+
+def _action(action: BridgeAction, site: DocumentationSite) -> TableRow:
+    over = inline_code(action.goal.port.middleware)
+    address = inline_code(action.goal.port.address.removesuffix("/goal"))
+    timeout = plain_text(f"{action.timeout_s:g}\u00a0s" if action.timeout_s else "")
+    goal = _parameters(action.goal.parameters, site)
+    return TableRow(
+        (inline_code(action.name), goal, over, address, timeout, flatten_doc(action.doc))
+    )
+
+
+def _action_rows(action: BridgeAction) -> Iterator[TableRow]:
+    """The fields of commands, feedback and result, and the conditions."""
+    for command in action.commands:
+        event = " on cancel" if command.is_on_cancel else ""
+        yield from _fields(f"{action.name}, command {command.name}{event}", command.arguments)
+    yield from _fields(f"{action.name}, feedback", (action.feedback_value,))
+    yield from _fields(f"{action.name}, result", (action.result_value,))
+    for word, conditions in (("succeed", action.succeed), ("abort", action.abort)):
+        for condition in conditions:
+            text = " and ".join(" ".join(part.span.text.split()) for part in condition)
+            cells = (inline_code(action.name), plain_text(f"{word} when"), inline_code(text))
+            yield TableRow((*cells, ()))
 
 
 def _function(function: BridgeFunction, site: DocumentationSite) -> TableRow:
