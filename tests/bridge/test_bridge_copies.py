@@ -58,8 +58,9 @@ def test_bridge_passes_arrays_without_a_copy(
 
 def _message(source: str) -> Any:
     """A message of 1 MB, of the generated type."""
-    (module,) = (m for n, m in sys.modules.items() if n.endswith("_generated.interfaces"))
-    found = vars(module)["Image" if source == "image" else "PointCloud2"]
+    found = vars(sys.modules["eyes_generated.interfaces"])[
+        "Image" if source == "image" else "PointCloud2"
+    ]
     message = found()
     message.data = np.zeros(BYTES, np.uint8)
     return message
