@@ -40,7 +40,7 @@ CASES: list[tuple[str, Any, Any, str, str]] = [
     ("huge", rt.Array(rt.LONG), [0, 2**70], "f0[1]", "does not fit into int64"),
     ("too large a float", rt.Array(rt.FLOAT), [1e39], "f0[0]", "1e+39 does not fit into float32"),
     ("bools", rt.Array(rt.BOOL), [0, 2], "f0[1]", "2 does not fit into bool"),
-    ("texts", rt.Array(rt.INT), ["a"], "f0", "takes numbers (int32)"),
+    ("texts", rt.Array(rt.INT), ["a"], "f0[0]", "takes numbers (int32)"),
     ("mixed", rt.Array(rt.INT), [1, None], "f0[1]", "not None (NoneType)"),
     ("ragged", rt.Array(rt.INT), [[1], [1, 2]], "f0", "takes a sequence of int32"),
     ("scalar", rt.Array(rt.INT), 5, "f0", "takes a one-dimensional sequence of int32, not 5 (int)"),
