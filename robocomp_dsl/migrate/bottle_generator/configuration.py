@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from robocomp_dsl.source import Span
@@ -89,7 +89,7 @@ class Mux:
     span: Span
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class BottleConfiguration:
     """One file. `rate` None: as fast as the inputs; `message_type` None: it is not stated.
 
@@ -103,4 +103,3 @@ class BottleConfiguration:
     muxes: tuple[Mux, ...]
     fields: tuple[MessageField, ...]
     fields_span: Span
-    nested_spans: dict[str, Span] = field(default_factory=dict)

@@ -46,7 +46,7 @@ class _Reader:
         general = self._section("general", _GENERAL)
         top = self._sections.get("message")
         muxes = self._muxes(general)
-        output = self._name(general, "output_name", general.required("output_name"))
+        output = self._name(general.required("output_name"))
         if top is None:
             self._missing_section("message", "the fields of the output")
             return None
@@ -64,7 +64,6 @@ class _Reader:
             muxes,
             fields,
             top.entries["num_fields"].span if "num_fields" in top.entries else top.span,
-            {name: self._sections[name].span for name in message.used},
         )
 
     def _section(self, name: str, keys: tuple[str, ...]) -> SectionReader:
@@ -226,8 +225,7 @@ class _Reader:
             )
         return tuple(names)
 
-    def _name(self, reader: SectionReader, key: str, value: IniValue | None) -> IniName | None:
-        del reader, key
+    def _name(self, value: IniValue | None) -> IniName | None:
         if value is None:
             return None
         name = IniName(value.text, value.span)
