@@ -90,7 +90,7 @@ def _running_topics() -> dict[str, str]:
         return {}
     module, _, function = description.topic_types.partition(":")
     try:
-        types: dict[str, str] = getattr(import_module(module), function)(_MASTER_TIMEOUT_S)
+        types: dict[str, str] = getattr(import_module(module), function)(timeout=_MASTER_TIMEOUT_S)
     except (ImportError, MiddlewareError):
         return {}
     return types

@@ -65,7 +65,7 @@ class MiddlewareDescription:
     `module:function`, that adds the connections of RoboComp's configuration keys to the settings of
     a component; see `middleware.configured`. `tcp_ports` is a function, as `module:function`, from
     the address of an own port to the TCP ports of this machine where it listens. `topic_types` is a
-    function, as `module:function`, from a time limit in s to the ROS types of the topics that run
+    function, as `module:function`, from `timeout` in s to the ROS types of the topics that run
     now, `package/Type` by topic; it raises `MiddlewareError`. `connector` is a
     function without arguments, as `module:function`, that opens an `ExternalConnector`; needed if
     the capabilities have `external_port_names`. `address_problem` is a function, as

@@ -19,7 +19,7 @@ MIDDLEWARE = MiddlewareDescription(
         max_message_bytes=MAX_MESSAGE_BYTES,
     ),
     opener="robocomp_dsl.runtime.middleware.ros1.transport:open_transport",
-    topic_types="robocomp_dsl.runtime.middleware.ros1.graph:running_topic_types",
+    topic_types="robocomp_dsl.runtime.middleware.ros1.graph:topic_types",
     address_problem="robocomp_dsl.runtime.middleware.ros_common.valid_names:address_problem",
     requires=("rosbags",),
     install="run: pip install 'robocomp_dsl[ros]'",

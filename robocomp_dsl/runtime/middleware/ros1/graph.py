@@ -28,11 +28,6 @@ def topic_types(master: str = "", timeout: float = TIMEOUT_S) -> dict[str, str]:
     return {str(name): str(type_) for name, type_ in pairs if type_ != ANY_TYPE}
 
 
-def running_topic_types(timeout: float) -> dict[str, str]:
-    """The types of all topics of the master in the environment; see `MiddlewareDescription`."""
-    return topic_types(timeout=timeout)
-
-
 def topic_type(master: str, topic: str, timeout: float = TIMEOUT_S) -> str:
     """The type of a topic, as `std_msgs/String`. Raises `MiddlewareError`."""
     types = topic_types(master, timeout)
