@@ -33,6 +33,16 @@ folders = click.option(
     metavar="DIR",
     help="Also search imported interfaces in DIR; repeatable.",
 )
+_WRITE_MODES = (
+    click.option(
+        "--check", is_flag=True, help="Write nothing; exit with 1 if files are out of date."
+    ),
+    click.option("--diff", is_flag=True, help="Write nothing; show the changes as a diff."),
+    click.option(
+        "--dry-run", is_flag=True, help="Write nothing; list the files that would be written."
+    ),
+    click.option("-q", "quiet", is_flag=True, help="Print findings only."),
+)
 topic_types = click.option(
     "--type",
     "topic_types",
@@ -113,3 +123,10 @@ def parse_topic_types(written: Sequence[str]) -> dict[str, str]:
             raise click.UsageError(problem)
         types[topic.strip()] = f"{package}/{type_}"
     return types
+
+
+def write_modes(command: Command) -> Command:
+    """Add `--check`, `--diff`, `--dry-run` and `-q` to a command that generates files."""
+    for option in reversed(_WRITE_MODES):
+        command = option(command)
+    return command

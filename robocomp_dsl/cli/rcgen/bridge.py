@@ -34,12 +34,7 @@ if TYPE_CHECKING:
     metavar="DIR",
     help="Output folder; default: the folder of the file.",
 )
-@click.option("--check", is_flag=True, help="Write nothing; exit with 1 if files are out of date.")
-@click.option("--diff", is_flag=True, help="Write nothing; show the changes as a diff.")
-@click.option(
-    "--dry-run", is_flag=True, help="Write nothing; list the files that would be written."
-)
-@click.option("-q", "quiet", is_flag=True, help="Print findings only.")
+@options.write_modes
 @options.topic_types
 @options.output_format
 @options.folders

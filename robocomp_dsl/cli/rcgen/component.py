@@ -75,12 +75,7 @@ def _find_language(written: str) -> str | None:
     metavar="L",
     help=f"Override the language of the file: {', '.join(LANGUAGES)}.",
 )
-@click.option("--check", is_flag=True, help="Write nothing; exit with 1 if files are out of date.")
-@click.option("--diff", is_flag=True, help="Write nothing; show the changes as a diff.")
-@click.option(
-    "--dry-run", is_flag=True, help="Write nothing; list the files that would be written."
-)
-@click.option("-q", "quiet", is_flag=True, help="Print findings only.")
+@options.write_modes
 @options.output_format
 @options.folders
 def command(
