@@ -60,7 +60,7 @@ def assignment(name: str, value: str, paths: PathMap = NO_PATHS) -> str:
     if not _ENVIRONMENT_NAME.fullmatch(name):
         raise UnitValueError(f"`{name}` is not a name of an environment variable")
     for character in value:
-        if ord(character) < 0x20 and character not in "\t\n" or character == "\x7f":
+        if (ord(character) < 0x20 and character not in "\t\n") or character == "\x7f":
             raise UnitValueError(
                 f"the value of `{name}` contains the control character U+{ord(character):04X}"
             )
