@@ -102,6 +102,7 @@ class Agent:
         self.root = Path(root)
         self.prefixes = tuple(prefixes)
         self.watched: dict[str, Any] = {}
+        self.operations: dict[str, int] = {}
         self.lock: int | None = None
         self.heard = time.monotonic()
 
@@ -175,6 +176,10 @@ class Agent:
 
     def control(self, operation: str, units: list[str]) -> dict[str, Any]:
         """`systemctl VERB UNITS`; for long jobs without waiting."""
+        for unit in units:
+            self.operations[unit] = self.operations.get(unit, 0) + 1
+            if unit in self.watched:
+                self.watched[unit] = None
         waits = operation in ("daemon-reload", "reset-failed", "enable", "disable", "stop")
         code, _, error = systemctl(operation, *([] if waits else ["--no-block"]), "--", *units)
         return {"code": code, "error": error}
@@ -212,8 +217,10 @@ class Agent:
     def poll(self) -> None:
         """Send the states of watched units that have changed."""
         states = show(list(self.watched))
-        changed = {u: s for u, s in states.items() if self.watched.get(u) != s}
-        self.watched.update(changed)
+        changed = {u: dict(s) for u, s in states.items() if self.watched.get(u) != s}
+        self.watched.update((unit, states[unit]) for unit in changed)
+        for unit, state in changed.items():
+            state["Operations"] = self.operations.get(unit, 0)
         if changed:
             send({"states": changed, "monotonic": time.clock_gettime(time.CLOCK_MONOTONIC)})
 

@@ -22,6 +22,7 @@ class UnitState:
     """The state of a unit. `up_s`: since it runs; `revision`: of the unit that the process runs.
 
     `memory` in bytes and `cpu` (1.0: a core) include children. `text` is what the process said.
+    `operations` counts what this deployer has requested of the unit before.
     """
 
     load: str
@@ -38,6 +39,7 @@ class UnitState:
     memory: int = 0
     cpu: float = 0.0
     has_job: bool = False
+    operations: int = 0
 
     @staticmethod
     def from_properties(fields: Mapping[str, Any], monotonic: float) -> UnitState:
@@ -57,6 +59,7 @@ class UnitState:
             revision=str(fields.get("Revision", "")),
             memory=int(fields.get("Memory", 0)),
             cpu=float(fields.get("Cpu", 0.0)),
+            operations=int(fields.get("Operations", 0)),
             has_job=str(fields.get("Job", "0")) not in ("", "0"),
         )
 
