@@ -105,22 +105,3 @@ Right:
     Deployment robot { component arm; };      // zenoh, if the component names no other
 """,
 )
-
-OTHER_MACHINE = Code(
-    "RC907",
-    Severity.ERROR,
-    "component on another machine",
-    """\
-rcdeploy starts components only on the machine it runs on: those without a host, on `localhost`, or
-on a host whose address is this machine. Remote hosts are not supported yet.
-
-Wrong:
-
-    host robot { address "10.0.0.2"; };
-    component arm on robot;
-
-Right:
-
-    component arm on localhost;
-""",
-)
