@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 from robocomp_dsl.deploy import status
 from robocomp_dsl.deploy.engine import DeploymentStatus, EngineError, StopResult
 from robocomp_dsl.deploy.hosts import registry
+from robocomp_dsl.deploy.hosts.description import all_components
 from robocomp_dsl.deploy.hosts.differences import stored_manifest
 from robocomp_dsl.deploy.hosts.errors import HostError
 from robocomp_dsl.deploy.hosts.fleet import Fleet, open_fleet
@@ -22,7 +23,15 @@ from robocomp_dsl.deploy.hosts.host_agent import HostAgent
 from robocomp_dsl.deploy.hosts.host_report import HostReport, UnitState
 from robocomp_dsl.deploy.hosts.manifest import HostedComponent, HostManifest, host_as_dict
 from robocomp_dsl.deploy.hosts.registry import HostedDeployment
-from robocomp_dsl.deploy.hosts.rollout import enable, lock_hosts, raise_failures, start_helpers
+from robocomp_dsl.deploy.hosts.rollout import (
+    RolloutResult,
+    enable,
+    lock_hosts,
+    raise_failures,
+    roll_out,
+    start_helpers,
+)
+from robocomp_dsl.deploy.hosts.stored_versions import check_trees, fetch_version
 from robocomp_dsl.deploy.hosts.unit_runner import UnitRunner, with_requirements
 from robocomp_dsl.deploy.selection import NoSuchComponent, select_names
 from robocomp_dsl.deploy.status import ProcessStatus, format_duration
@@ -75,7 +84,7 @@ class HostEngine:
         async with self._fleet(STATUS_TIMEOUT_S) as fleet:
             reports = await fleet.reports(usage=True)
         order = {name: i for i, name in enumerate(self.components())}
-        rows = [row for host, report in reports.items() for row in host_rows(host, report)]
+        rows = [row for report in reports.values() for row in host_rows(report)]
         for host in fleet.failures:
             rows += [
                 ProcessStatus(name, status.UNKNOWN, note="its host does not answer", host=host)
@@ -172,7 +181,31 @@ class HostEngine:
 
     async def _stop_helpers(self, agent: HostAgent) -> None:
         report = await agent.report()
-        await agent.systemctl("stop", [unit for unit in report.units if unit in report.units])
+        await agent.systemctl("stop", list(report.units))
+
+    def roll_back(self, version: int, report: Report) -> RolloutResult:
+        """Run another stored version; 0: the one before. Raises `EngineError`."""
+        return run_async(self._roll_back(version, report))
+
+    async def _roll_back(self, version: int, report: Report) -> RolloutResult:
+        async with self._fleet() as fleet:
+            await lock_hosts(fleet)
+            reports = await fleet.reports()
+            raise_failures(fleet)
+            stored = {number for each in reports.values() for number in each.versions}
+            current = max((int(r.current or 0) for r in reports.values()), default=0)
+            version = version or max((n for n in stored if n < current), default=0)
+            if version not in stored:
+                known = ", ".join(map(str, sorted(stored))) or "none"
+                what = f"version {version}" if version else "no version before the current one"
+                raise EngineError(f"`{self.name}` has {what}; stored: {known}")
+            described = await fetch_version(fleet, self.name, version)
+            await check_trees(fleet, described)
+            result = await roll_out(fleet, described, _copy_nothing, report, version=version)
+            for name in result.failed:
+                component = all_components(described.values())[name]
+                await show_last_lines(fleet, component, report)
+        return result
 
     def _fleet(self, timeout_s: float = 10.0) -> Any:
         return open_fleet(self.deployment.hosts, self.name, timeout_s)
@@ -205,6 +238,10 @@ class HostEngine:
         registry.register(self.deployment)
 
 
+async def _copy_nothing(fleet: Fleet) -> None:
+    """A stored version has its files on the hosts."""
+
+
 def run_async(work: Coroutine[Any, Any, Result]) -> Result:
     """Run `work`; errors of hosts become `EngineError`."""
     try:
@@ -217,7 +254,7 @@ def _describe_failure(error: HostError) -> str:
     return f"{error.message}; {error.help}" if error.help else error.message
 
 
-def host_rows(host: str, report: HostReport) -> list[ProcessStatus]:
+def host_rows(report: HostReport) -> list[ProcessStatus]:
     """The status of the components that are deployed on a host."""
     manifest = stored_manifest(report)
     if manifest is None:

@@ -10,7 +10,7 @@ import asyncio
 import heapq
 import json
 import time
-from collections.abc import AsyncIterator, Callable, Collection, Iterable
+from collections.abc import AsyncGenerator, AsyncIterator, Callable, Collection, Iterable
 from contextlib import aclosing
 from dataclasses import dataclass, field
 from itertools import count
@@ -165,7 +165,7 @@ def _moment(record: LogRecord) -> float:
 
 async def follow_logs(
     readers: Iterable[HostLogReader], on_error: Callable[[HostError], object]
-) -> AsyncIterator[LogRecord]:
+) -> AsyncGenerator[LogRecord, None]:
     """The records that the hosts have from now on, in the order of time, until it is closed."""
     arrived: asyncio.Queue[list[LogRecord]] = asyncio.Queue(maxsize=1000)
 

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import time
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from robocomp_dsl.cli.rcdeploy.app import CheckedDeployment, check
 from robocomp_dsl.deploy.hosts import registry
 from robocomp_dsl.deploy.hosts.deployer import Deployer
+from robocomp_dsl.deploy.hosts.differences import HostChanges
 from robocomp_dsl.deploy.hosts.host_engine import HostEngine, run_async
 from robocomp_dsl.deploy.hosts.rollout import RolloutResult
 from robocomp_dsl.deploy.status import ProcessStatus
@@ -67,6 +65,19 @@ class HostedApp:
     def engine(self, name: str = "app") -> HostEngine:
         return HostEngine(next(e for e in registry.registered() if e.name == name))
 
+    def enter(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        """Let this process be the operator's."""
+        monkeypatch.setenv("HOME", str(self.hosts.operator))
+        monkeypatch.delenv("XDG_CONFIG_HOME", raising=False)
+        monkeypatch.setenv("XDG_STATE_HOME", str(self.hosts.operator / "state"))
+
+    def diff(self) -> list[HostChanges]:
+        return run_async(self.deployer().diff())
+
+    def roll_back(self, version: int = 0) -> RolloutResult:
+        self.lines.clear()
+        return self.engine().roll_back(version, self.lines.append)
+
     def rows(self) -> dict[str, ProcessStatus]:
         return {row.name: row for row in self.engine().status().rows}
 
@@ -74,12 +85,9 @@ class HostedApp:
         return {name: row.pid for name, row in self.rows().items()}
 
 
-def make_app(folder: Path, hosts: Hosts, monkeypatch: pytest.MonkeyPatch) -> HostedApp:
-    """Generate the components in `folder`; the operator is the user of this process."""
+def make_app(folder: Path, hosts: Hosts) -> HostedApp:
+    """Generate the components in `folder`."""
     folder.mkdir()
     generate_components(folder, {"arm": ARM, "eye": EYE})
-    monkeypatch.setenv("HOME", str(hosts.operator))
-    monkeypatch.delenv("XDG_CONFIG_HOME", raising=False)
-    monkeypatch.setenv("XDG_STATE_HOME", str(hosts.operator / "state"))
     hosts.trust()
     return HostedApp(folder, hosts)
