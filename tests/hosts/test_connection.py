@@ -152,7 +152,7 @@ def test_connection_notices_lost_link(robot: SimulatedHost) -> None:
                 await connection.run(["sleep", "600"], timeout_s=600)
             with pytest.raises(HostUnreachable, match="the connection was lost"):
                 await connection.read("x")
-            with pytest.raises(HostUnreachable, match="no way to the address|no answer within"):
+            with pytest.raises(HostUnreachable, match=r"no way to the address|no answer within"):
                 await connect(host_of(robot))
         finally:
             robot.restore_link()
