@@ -97,7 +97,7 @@ def check_configuration(instance: Instance, process: Process) -> list[Diagnostic
     schema = runtime_schema(parameters.parameters) if parameters else ()
     default = process.cwd / DEFAULT_CONFIG
     try:
-        config = process.config or _search_config(instance.name, process)
+        config = process.config or search_config(instance.name, process)
         config = config or (default if default.is_file() else None)
     except ConfigError as error:
         return [_config_diagnostic(instance, None, finding) for finding in error.findings]
@@ -108,7 +108,7 @@ def check_configuration(instance: Instance, process: Process) -> list[Diagnostic
     return []
 
 
-def _search_config(name: str, process: Process) -> Path | None:
+def search_config(name: str, process: Process) -> Path | None:
     """The file that the instance finds in its context; None: its default. Raises `ConfigError`."""
     if not (process.context or process.config_name):
         return None
