@@ -292,7 +292,7 @@ def test_check_accepts_groups_on_local_hosts(folder: Path) -> None:
     for where in ("desk", "localhost"):
         app = PLACED.replace("WHERE", where)
         checked = check_app(folder, app=app)
-        assert finding_lines(checked, folder) == []
+        assert {finding.code.id for finding in checked.findings} == {"RC573"}
         assert checked.plan is not None
         arm, eye = checked.plan.processes
         assert (arm.name, arm.group, eye.after) == ("left-arm", "left", ("left-arm",))
@@ -300,3 +300,10 @@ def test_check_accepts_groups_on_local_hosts(folder: Path) -> None:
         shown = "\n".join(as_text(checked.plan))
         assert f"1. left-arm (arm) in group left on {arm.host}" in shown
         assert "2. eye (eye) on localhost after left-arm" in shown
+
+
+def test_preflight_reports_cores_that_the_machine_does_not_have(folder: Path) -> None:
+    checked = check_app(folder, "cores 1022-1023;", "realtime priority 1; cores 0;")
+    (line,) = [line for line in finding_lines(checked, folder) if "1022" in line]
+    assert line.startswith("app.ddsl:6:15 RC575 `arm`: the CPU cores 1022-1023 cannot be used")
+    assert not checked.ready
