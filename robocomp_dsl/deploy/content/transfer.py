@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from robocomp_dsl.deploy.content.host_session import ContentError, HostSession
-from robocomp_dsl.deploy.content.tree import Tree
+from robocomp_dsl.deploy.content.tree import ContentTree
 from robocomp_dsl.deploy.hosts.connection import HostConnection
 from robocomp_dsl.deploy.hosts.errors import HostError
 from robocomp_dsl.regular_file import open_regular
@@ -68,7 +68,7 @@ class CopyResult:
     seconds: float = 0.0
 
 
-def blobs_of(trees: Iterable[Tree]) -> dict[str, Blob]:
+def blobs_of(trees: Iterable[ContentTree]) -> dict[str, Blob]:
     """The contents of trees, by name."""
     return {
         file.blob: Blob(file.blob, file.size, file.source) for tree in trees for file in tree.files
@@ -76,7 +76,7 @@ def blobs_of(trees: Iterable[Tree]) -> dict[str, Blob]:
 
 
 async def find_lacking(
-    session: HostSession, trees: Sequence[Tree], blobs: Sequence[Blob] = ()
+    session: HostSession, trees: Sequence[ContentTree], blobs: Sequence[Blob] = ()
 ) -> HostState:
     """Which trees and blobs a host lacks: `blobs`, and those of its missing trees."""
     names = sorted({tree.hash for tree in trees})
@@ -94,7 +94,7 @@ async def find_lacking(
 async def upload_trees(
     connection: HostConnection,
     root: str,
-    trees: Sequence[Tree],
+    trees: Sequence[ContentTree],
     *,
     python: str = "python3",
     progress: Progress | None = None,
@@ -238,7 +238,7 @@ def _changed(source: str) -> ContentError:
     return ContentError(f"{source} changed while it was copied; run the command again", "changed")
 
 
-def manifest_of(tree: Tree) -> dict[str, Any]:
+def manifest_of(tree: ContentTree) -> dict[str, Any]:
     """A tree as `on_host.files.build_trees` reads it."""
     return {
         "files": [(file.path, file.blob, file.size) for file in tree.files],
