@@ -18,6 +18,7 @@ from robocomp_dsl.deploy.middlewares import check_middlewares
 from robocomp_dsl.deploy.parameters import runtime_schema
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.deploy.port_addresses import check_port_addresses
+from robocomp_dsl.deploy.supervisor.scheduling import scheduling_error
 from robocomp_dsl.diagnostics import Code, Diagnostic, Note
 from robocomp_dsl.finding import Finding
 from robocomp_dsl.model.deployment import Deployment, Instance
@@ -45,6 +46,7 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
         missing = list(_check_executable(instance, process))
         if missing or not instance.is_program:
             findings += missing or check_configuration(instance, process)
+        findings += _check_scheduling(instance)
     if ports:
         findings += _check_ports(deployment)
         findings += check_port_addresses(deployment, KnownMiddlewares(), _bind_error)
@@ -83,6 +85,19 @@ def _check_executable(instance: Instance, process: Process) -> Iterator[Diagnost
     else:
         message = f"no {script} in {short_path(process.cwd)}"
         yield _diagnostic(instance, codes.EXECUTABLE, message)
+
+
+def _check_scheduling(instance: Instance) -> Iterator[Diagnostic]:
+    limits = instance.limits
+    if (limits.cores or limits.realtime) and (problem := scheduling_error(limits)):
+        yield _diagnostic(
+            instance,
+            codes.SCHEDULING,
+            problem,
+            "allow it in /etc/security/limits.conf: `@realtime - rtprio 99`"
+            if "realtime" in problem
+            else "write `cores` that the machine has",
+        )
 
 
 def _program_exists(program: str, process: Process) -> bool:

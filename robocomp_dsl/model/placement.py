@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from robocomp_dsl.record import ValueRecord
+from robocomp_dsl.record import Record, ValueRecord
 
 if TYPE_CHECKING:
     from robocomp_dsl.model.deployment import Host
@@ -25,10 +25,17 @@ class Placement(ValueRecord):
     unit: str = ""
 
     def __str__(self) -> str:
-        """As users write it; a single candidate is its only host."""
+        """`on label gpu` or `by load on robot, desk`; empty if the host is given."""
         if self.kind == LABEL:
             return f"on label {self.label}"
         if self.kind != LOAD:
             return ""
         among = f"label {self.label}" if self.label else ", ".join(h.name for h in self.candidates)
         return f"by load on {among}"
+
+
+class LabelledHosts(Record):
+    """The hosts that have a label, by name."""
+
+    label: str
+    hosts: tuple[str, ...]
