@@ -100,6 +100,7 @@
      "implements"
      "import"
      "in"
+     "inprocess"
      "keep"
      "labels"
      "last"

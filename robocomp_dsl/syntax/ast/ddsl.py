@@ -243,7 +243,10 @@ class Export(Node):
 class Group(Node):
     """`group arm on robot { … };`: several components that appear as one from outside.
 
-    They run on `host` unless they name a host themselves, and start after those in `after`.
+    They run on `host` unless they name a host themselves, and start after those in `after`. A group
+    of a `File` is a definition. `group left : arm { … };` is an instance of the `definition` `arm`.
+    The keys of `settings` start with a member: `set motor.speed = 3;`. `inprocess` is the keyword;
+    `restart`, `ready`, `memory` and `cpu` are of the one process.
     """
 
     name: Name
@@ -255,6 +258,14 @@ class Group(Node):
     groups: tuple[Group, ...] = ()
     arbitrations: tuple[Arbitration, ...] = ()
     doc: str = ""
+    definition: Name | None = None
+    prefix: Name | Text | None = None
+    settings: tuple[Setting, ...] = ()
+    inprocess: Name | None = None
+    restart: Restart | None = None
+    ready: Duration | None = None
+    memory: Memory | None = None
+    cpu: Number | None = None
 
 
 class LockStep(Node):
@@ -289,7 +300,7 @@ class Deployment(Node):
 
 
 class File(Node):
-    """One DDSL file; `deployment` is None if the file has none.
+    """One DDSL file; `deployment` is None if the file has none; `groups` are definitions.
 
     `complete` is False if syntax errors were reported, so parts may be missing.
     """
@@ -297,3 +308,4 @@ class File(Node):
     imports: tuple[Import, ...]
     deployment: Deployment | None
     complete: bool = True
+    groups: tuple[Group, ...] = ()
