@@ -17,7 +17,7 @@ from robocomp_dsl.deploy.devices import describe_devices, devices_environment
 from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.group_processes import join_groups
 from robocomp_dsl.deploy.plan_text import describe_clock, describe_host
-from robocomp_dsl.deploy.process import Process as Process
+from robocomp_dsl.deploy.process import Process
 from robocomp_dsl.model.deployment import (
     Clock,
     Deployment,
@@ -29,6 +29,18 @@ from robocomp_dsl.model.deployment import (
 from robocomp_dsl.model.port_middlewares import port_middlewares
 from robocomp_dsl.model.types import Literal
 from robocomp_dsl.runtime.time.clock_settings import LOCKSTEP, SIM, ClockSettings
+
+__all__ = [
+    "PYTHON_PROGRAMS",
+    "Plan",
+    "Process",
+    "batches",
+    "format_clock",
+    "format_literal",
+    "format_settings",
+    "plan",
+    "used_middlewares",
+]
 
 PYTHON_PROGRAMS = ("python3", "python")
 """Program names that stand for the interpreter that runs rcdeploy (it has the runtime)."""

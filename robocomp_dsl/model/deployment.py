@@ -109,12 +109,11 @@ class Instance(Record):
 
     In a group, `name` is prefixed with the names of the groups: `arm-motor`; `group` is then `arm`,
     otherwise empty; `process` is the group with `inprocess` around it. `host_span` is the reference
-    to the host. With a `prefix`, the name of the running component is `full_name`: `left/arm-motor`.
-    `config` is None if the component uses its
-    own `etc/config.yaml` or searches for a file of the `context` or for `config_name` when it
-    starts; `settings` are the `set` lines with dotted keys; `executable` is a command line run in
-    the component's folder; `port` 0: any free port; `watchdog_s` None: as in the component;
-    `middleware` "": as in the component.
+    to the host. With a `prefix`, the name of the running component is `full_name`:
+    `left/arm-motor`. `config` is None if the component uses its own `etc/config.yaml` or searches
+    for a file of the `context` or for `config_name` when it starts; `settings` are the `set` lines
+    with dotted keys; `executable` is a command line run in the component's folder; `port` 0: any
+    free port; `watchdog_s` None: as in the component; `middleware` "": as in the component.
     `is_program`: a program that is no component; its `component` has no ports, and the path of the
     DDSL file.
     """

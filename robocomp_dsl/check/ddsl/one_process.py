@@ -23,10 +23,10 @@ from robocomp_dsl.model.deployment import (
     Instance,
     OwnPort,
 )
+from robocomp_dsl.model.port_middlewares import IN_PROCESS
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Node
 
-INPROC = "inproc"
 _PYTHON = "python"
 
 
@@ -196,10 +196,10 @@ def within_processes(
     connections: Sequence[Connection], known: KnownMiddlewares
 ) -> tuple[Connection, ...]:
     """The connections; those within a process are plain calls unless they name a middleware."""
-    description = known.describe(INPROC)
+    description = known.describe(IN_PROCESS)
     able = description.capabilities.qos if description else frozenset()
     return tuple(
-        connection.replace(middleware=INPROC)
+        connection.replace(middleware=IN_PROCESS)
         if is_within_process(connection)
         and not connection.middleware
         and not _chooses_middleware(connection)
