@@ -67,6 +67,13 @@ class Plan:
         """The process of each component, also of those in the process of their group."""
         return tuple(each for process in self.processes for each in process.members or (process,))
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of all processes, and of the components in each; log records have them."""
+        return tuple(
+            each.name for process in self.processes for each in (process, *process.members)
+        )
+
     def shutdown_batches(self) -> list[list[str]]:
         """Names of processes to stop, batch after batch; those of one batch stop together."""
         return batches({p.name: set(p.stops_after) for p in self.processes})

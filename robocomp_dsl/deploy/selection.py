@@ -65,6 +65,11 @@ def select_names(names: Iterable[str], processes: Sequence[Process]) -> list[str
         exact = [p.name for p in processes if p.name == name]
         short = [p.name for p in processes if p.name.rpartition("/")[2] == name]
         group = [p.name for p in processes if p.group == name or p.group.startswith(f"{name}-")]
+        owner = next((p for p in processes if _has_member(p, name)), None)
+        if owner and not (exact or short or group):
+            raise NoSuchComponent(
+                f"`{name}` runs in the process of the group `{owner.name}`; name the group"
+            )
         if not exact and len(short) > 1:
             raise NoSuchComponent(f"`{name}` is ambiguous: {', '.join(short)}")
         found = exact or short or group
@@ -72,6 +77,11 @@ def select_names(names: Iterable[str], processes: Sequence[Process]) -> list[str
             raise NoSuchComponent(_unknown(name, processes))
         selected.update(found)
     return [p.name for p in processes if p.name in selected]
+
+
+def _has_member(process: Process, name: str) -> bool:
+    """Whether a component of that name, with or without its prefix, runs in the process."""
+    return any(name in (m.name, m.name.rpartition("/")[2]) for m in process.members)
 
 
 def _unknown(name: str, processes: Sequence[Process]) -> str:

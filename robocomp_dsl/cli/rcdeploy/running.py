@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -77,15 +77,21 @@ def is_meant(deployment: instances.RunningDeployment, which: str) -> bool:
 
 
 def components(deployment: instances.RunningDeployment) -> list[str]:
-    """The full names of its components and programs."""
-    return [str(row["name"]) for row in _status(deployment)["rows"]]
+    """The full names of its components and programs, and of groups that are one process."""
+    rows = _status(deployment)["rows"]
+    return [name for row in rows for name in (str(row["name"]), *_members(row))]
 
 
 def answering_components(deployment: instances.RunningDeployment) -> list[str]:
     """The full names of its components, without the programs, which answer no calls."""
     status = _status(deployment)
-    names = [str(row["name"]) for row in status["rows"]]
+    names = [name for row in status["rows"] for name in _members(row) or (str(row["name"]),)]
     return [name for name in names if name not in status.get("programs", ())]
+
+
+def _members(row: Mapping[str, Any]) -> list[str]:
+    """The components of a group that is one process."""
+    return [name for name, _ in row.get("members", ())]
 
 
 def _status(deployment: instances.RunningDeployment) -> dict[str, Any]:
