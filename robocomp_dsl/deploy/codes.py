@@ -124,3 +124,23 @@ Right:
     component arm on localhost;
 """,
 )
+
+SCHEDULING = Code(
+    "RC575",
+    Severity.ERROR,
+    "CPU cores or real-time priority not available",
+    """\
+`cores` are CPU cores that the machine has, counted from 0. `realtime priority` needs the permission
+of the system: a line in /etc/security/limits.conf, valid from the next login, or the capability
+CAP_SYS_NICE.
+
+Wrong, on a machine with four cores:
+
+    component motor { cores 4; realtime priority 50; };
+
+Right:
+
+    component motor { cores 3; realtime priority 50; };
+    // in /etc/security/limits.conf:  @realtime - rtprio 99
+""",
+)

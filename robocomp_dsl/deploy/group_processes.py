@@ -60,6 +60,7 @@ def group_process(group: Group, members: Sequence[Process], interpreter: str) ->
         restart=ending or group.restart,
         start_timeout_s=group.start_timeout_s,
         limits=group.limits,
+        watchdog_s=_watchdog_s(members),
         host=members[0].host,
         group=group.name.rpartition("-")[0],
         members=tuple(
@@ -92,6 +93,12 @@ def component_arguments(member: Process) -> list[str]:
     position = arguments.index("--log-format")
     del arguments[position : position + 2]
     return arguments
+
+
+def _watchdog_s(members: Sequence[Process]) -> float:
+    """The time after which the process hangs; 0 if one of its components has no limit."""
+    limits = [member.watchdog_s for member in members]
+    return max(limits) if all(limits) else 0.0
 
 
 def _common_folder(members: Sequence[Process]) -> Path:

@@ -175,6 +175,7 @@ def _process(deployment: Deployment, instance: Instance, domain: str, interprete
         start_timeout_s=instance.start_timeout_s,
         readiness=instance.readiness,
         limits=instance.limits,
+        watchdog_s=_watchdog_s(instance),
         port=instance.port,
         config=instance.config,
         context=instance.context,
@@ -185,6 +186,11 @@ def _process(deployment: Deployment, instance: Instance, domain: str, interprete
         devices=describe_devices(instance.devices),
         is_program=instance.is_program,
     )
+
+
+def _watchdog_s(instance: Instance) -> float:
+    configured = instance.watchdog_s
+    return instance.component.watchdog_s if configured is None else configured
 
 
 def _watchdog_environment(instance: Instance) -> tuple[tuple[str, str], ...]:

@@ -18,6 +18,7 @@ from robocomp_dsl.deploy.middlewares import check_middlewares
 from robocomp_dsl.deploy.parameters import runtime_schema
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.deploy.port_addresses import check_port_addresses
+from robocomp_dsl.deploy.supervisor.scheduling import scheduling_error
 from robocomp_dsl.diagnostics import Code, Diagnostic, Note
 from robocomp_dsl.finding import Finding
 from robocomp_dsl.model.deployment import Deployment, Instance
@@ -45,6 +46,7 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
         missing = list(_check_executable(instance, process))
         if missing or not instance.is_program:
             findings += missing or check_configuration(instance, process)
+        findings += _check_scheduling(instance)
     if ports:
         findings += _check_ports(deployment)
         findings += check_port_addresses(deployment, KnownMiddlewares(), _bind_error)
@@ -85,6 +87,19 @@ def _check_executable(instance: Instance, process: Process) -> Iterator[Diagnost
         yield _diagnostic(instance, codes.EXECUTABLE, message)
 
 
+def _check_scheduling(instance: Instance) -> Iterator[Diagnostic]:
+    limits = instance.limits
+    if (limits.cores or limits.realtime) and (problem := scheduling_error(limits)):
+        yield _diagnostic(
+            instance,
+            codes.SCHEDULING,
+            problem,
+            "allow it in /etc/security/limits.conf: `@realtime - rtprio 99`"
+            if "realtime" in problem
+            else "write `cores` that the machine has",
+        )
+
+
 def _program_exists(program: str, process: Process) -> bool:
     path = dict(process.env).get("PATH", os.environ.get("PATH"))
     local = process.cwd / program
@@ -97,7 +112,7 @@ def check_configuration(instance: Instance, process: Process) -> list[Diagnostic
     schema = runtime_schema(parameters.parameters) if parameters else ()
     default = process.cwd / DEFAULT_CONFIG
     try:
-        config = process.config or _search_config(instance.name, process)
+        config = process.config or search_config(instance.name, process)
         config = config or (default if default.is_file() else None)
     except ConfigError as error:
         return [_config_diagnostic(instance, None, finding) for finding in error.findings]
@@ -108,7 +123,7 @@ def check_configuration(instance: Instance, process: Process) -> list[Diagnostic
     return []
 
 
-def _search_config(name: str, process: Process) -> Path | None:
+def search_config(name: str, process: Process) -> Path | None:
     """The file that the instance finds in its context; None: its default. Raises `ConfigError`."""
     if not (process.context or process.config_name):
         return None

@@ -17,9 +17,10 @@ class Process:
     have exited before it is stopped. `config`, `context`, `config_name` and `settings`
     (`key=value`) are those in `argv`; `config` None: the component's default, or what it finds by
     `context` and `config_name`. `port` 0: any free port. `host` and `group` are as written in the
-    description, empty for this machine and for no group; `devices` are text lines. `is_program`:
-    it is no component. `members` are the components of a group in one process, each as it would be
-    alone; their `after` names other members.
+    description, empty for this machine and for no group; `devices` are text lines. `is_program`: it
+    is no component. `watchdog_s`: a callback that takes longer hangs; 0: no limit. `members` are
+    the components of a group in one process, each as it would be alone; their `after` names other
+    members.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Process:
     start_timeout_s: float = START_TIMEOUT_S
     readiness: Readiness = field(default_factory=Readiness)
     limits: ResourceLimits = field(default_factory=ResourceLimits)
+    watchdog_s: float = 0.0
     port: int = 0
     config: Path | None = None
     context: str = ""

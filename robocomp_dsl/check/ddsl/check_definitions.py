@@ -11,6 +11,7 @@ from collections.abc import Set as AbstractSet
 from typing import TypeAlias
 
 from robocomp_dsl.check.codes import deployment as codes
+from robocomp_dsl.check.codes import placement as placement_codes
 from robocomp_dsl.check.ddsl.definitions import DefinitionFile, DefinitionFiles
 from robocomp_dsl.check.ddsl.scopes import NAME_SEPARATOR, DeploymentScope
 from robocomp_dsl.check.workspace.referenced_files import errors_of
@@ -21,7 +22,11 @@ from robocomp_dsl.syntax.ast import ddsl as ast
 Known: TypeAlias = AbstractSet[tuple[str, Span]]
 """Codes and places that were reported for a definition itself."""
 CheckDeployment: TypeAlias = Callable[[DefinitionFile, ast.Deployment, Report], None]
-_OF_INSTANCES = {codes.UNKNOWN_HOST.id}
+_OF_INSTANCES = {
+    codes.UNKNOWN_HOST.id,
+    placement_codes.UNKNOWN_LABEL.id,
+    placement_codes.NO_CANDIDATE.id,
+}
 """What only an instance decides: the hosts are those of its deployment."""
 
 

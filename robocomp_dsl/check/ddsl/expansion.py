@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from robocomp_dsl.check.codes import deployment as deployment_codes
 from robocomp_dsl.check.codes import groups as codes
 from robocomp_dsl.check.ddsl.definitions import DefinitionFiles
 from robocomp_dsl.check.literals import join_names
@@ -48,6 +49,7 @@ def expand(
         _report_cycle(group, definition, outer, report)
         return group, ()
     inner, followed = expand(definition, {}, (*outer, definition), definitions, report)
+    _check_places(group, inner, report)
     return _merge(group, inner), (definition, *followed)
 
 
@@ -65,7 +67,7 @@ def _own_items(group: ast.Group) -> Iterator[tuple[str, Node]]:
 
 def _merge(group: ast.Group, definition: ast.Group) -> ast.Group:
     return group.replace(
-        host=group.host or definition.host,
+        **_merge_places(group, definition),
         instances=definition.instances,
         connections=definition.connections,
         exports=definition.exports,
@@ -79,7 +81,37 @@ def _merge(group: ast.Group, definition: ast.Group) -> ast.Group:
         ready=group.ready or definition.ready,
         memory=group.memory or definition.memory,
         cpu=group.cpu or definition.cpu,
+        cores=group.cores or definition.cores,
+        realtime=group.realtime or definition.realtime,
     )
+
+
+def _places(group: ast.Group) -> dict[str, Name | ast.Place]:
+    """What a group says about its host, by field."""
+    found: dict[str, Name | ast.Place | None] = {
+        "host": group.host,
+        "label": group.label,
+        "place": group.place,
+    }
+    return {field: node for field, node in found.items() if node is not None}
+
+
+def _merge_places(group: ast.Group, definition: ast.Group) -> dict[str, Name | ast.Place]:
+    return _places(group) or _places(definition)
+
+
+def _check_places(group: ast.Group, definition: ast.Group, report: Report) -> None:
+    """Report an instance on another host than its definition says."""
+    own, outer = _places(group), _places(definition)
+    if own and outer and own != outer:
+        here, there = next(iter(own.values())), next(iter(outer.values()))
+        report.add(
+            deployment_codes.CONFLICTING_HOSTS,
+            here.span,
+            f"`{group.name.text}` is assigned to two hosts: by itself and by its definition",
+            notes=[Note(there.span, "the host of its definition")],
+            help="remove the host from the definition: its instances choose one",
+        )
 
 
 def _merge_settings(

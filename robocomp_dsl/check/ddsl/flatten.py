@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from robocomp_dsl.check.ddsl.scopes import (
     DeploymentScope,
-    report_conflicting_hosts,
     resolve_port,
 )
 from robocomp_dsl.diagnostics import Report
@@ -15,25 +14,22 @@ from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Name, Text
 
 
-def flatten(scope: DeploymentScope, report: Report) -> list[tuple[ast.Instance, str]]:
+def flatten(scope: DeploymentScope) -> list[tuple[ast.Instance, str]]:
     """All instances with their groups, with qualified names as if there were no groups.
 
-    `component` is always set, `host` defaults to that of the group, and `after` lists qualified
+    `component` is always set, `prefix` contains those of the groups, and `after` lists qualified
     names, including the dependencies of the group.
     """
     resolved: list[tuple[ast.Instance, str]] = []
     for nested in scope.descendants:
         waits = _group_dependencies(nested)
         for tree in nested.instances.values():
-            if tree.host and nested.host and tree.host.text != nested.host.text:
-                report_conflicting_hosts(tree.name.text, tree.host, nested.host, report)
             own = [
                 name for dependency in tree.after for name in _resolve_reference(dependency, nested)
             ]
             renamed = tree.replace(
                 name=Name(tree.name.span, nested.qualified_name(tree.name.text)),
                 component=tree.component or tree.name,
-                host=tree.host or nested.host,
                 prefix=_full_prefix(tree.prefix, nested),
                 after=(*own, *waits),
             )

@@ -77,6 +77,8 @@ def with_process(
 def _process_settings(tree: ast.Group) -> Iterator[tuple[str, Node]]:
     named: dict[str, Node | None] = {"memory": tree.memory, "cpu": tree.cpu}
     named["restart"] = tree.restart
+    named["cores"] = tree.cores[0] if tree.cores else None
+    named["realtime priority"] = tree.realtime
     named["ready within"] = tree.ready
     yield from ((what, node) for what, node in named.items() if node is not None)
 
@@ -119,6 +121,8 @@ def _check_member(tree: ast.Instance, process: DeploymentScope, report: Report) 
     settings: dict[str, Node | None] = {
         "memory": tree.memory,
         "cpu": tree.cpu,
+        "cores": tree.cores[0] if tree.cores else None,
+        "realtime priority": tree.realtime,
         "restart": tree.restart,
         "ready when": tree.ready_when,
     }
@@ -153,7 +157,7 @@ def _check_hosts(members: _Members, process: DeploymentScope, report: Report) ->
     components = [(tree, instance) for tree, instance in members if not tree.is_program]
     for tree, instance in components[1:]:
         first_tree, first = components[0]
-        if instance.host.name != first.host.name:
+        if _place_of(instance) != _place_of(first):
             report.add(
                 codes.ONE_PROCESS,
                 (tree.host or tree.name).span,
@@ -162,6 +166,11 @@ def _check_hosts(members: _Members, process: DeploymentScope, report: Report) ->
                 notes=[Note((first_tree.host or first_tree.name).span, f"`{first.name}` is here")],
                 help=f"write the host at the group: `group {process.tree.name.text} on HOST`",
             )
+
+
+def _place_of(instance: Instance) -> tuple[str, str]:
+    """What is equal for components that run on the same host."""
+    return instance.host.name, instance.placement.unit
 
 
 def _check_environment(members: _Members, process: DeploymentScope, report: Report) -> None:
@@ -217,7 +226,7 @@ def is_within_process(connection: Connection) -> bool:
     source, target = connection.source, connection.target
     external = isinstance(source, External) or isinstance(target, External)
     same_process = bool(source.process) and source.process == target.process
-    return same_process and not external and source.host.name == target.host.name
+    return same_process and not external and _place_of(source) == _place_of(target)
 
 
 def _chooses_middleware(connection: Connection) -> bool:

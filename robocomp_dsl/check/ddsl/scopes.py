@@ -37,7 +37,6 @@ class DeploymentScope:
     path: str
     tree: ast.Deployment | ast.Group
     outer: DeploymentScope | None
-    host: Name | None = None
     definitions: tuple[ast.Group, ...] = ()
     prefix: str = ""
     instances: dict[str, ast.Instance] = field(default_factory=dict)
@@ -146,11 +145,9 @@ def _filled(
             scope.qualified_name(name),
             expanded,
             scope,
-            expanded.host or scope.host,
             chain,
             prefix_of(expanded.prefix, report),
         )
-        _check_hosts(group, expanded, chain, scope, report)
         if group.definition is None or chain:
             inherited = outer.get(name, ())
             _filled(inner, inherited, (*followed, *chain), definitions, report)
@@ -163,23 +160,6 @@ def _filled(
             message = f"the group `{tree.name.text}` has no components"
             report.add(codes.EMPTY_DEPLOYMENT, tree.name.span, message)
     return scope
-
-
-def _check_hosts(
-    group: ast.Group,
-    expanded: ast.Group,
-    definitions: Sequence[ast.Group],
-    outer: DeploymentScope,
-    report: Report,
-) -> None:
-    """Report a group that is assigned to two hosts: by its definition, or by an outer group."""
-    host = group.host
-    for definition in definitions:
-        if host and definition.host and host.text != definition.host.text:
-            report_conflicting_hosts(group.name.text, host, definition.host, report)
-        host = host or definition.host
-    if expanded.host and outer.host and expanded.host.text != outer.host.text:
-        report_conflicting_hosts(group.name.text, expanded.host, outer.host, report)
 
 
 def _externals(scope: DeploymentScope, tree: ast.Deployment, report: Report) -> None:
@@ -198,17 +178,6 @@ def _exports(scope: DeploymentScope, tree: ast.Group, report: Report) -> None:
         earlier = scope.exports.setdefault(nested.port.text, nested)
         if earlier is not nested:
             report_duplicate(nested.port, earlier.port, "export", report)
-
-
-def report_conflicting_hosts(what: str, inner: Name, outer: Name, report: Report) -> None:
-    """Report a component or group that is assigned to two hosts."""
-    report.add(
-        codes.CONFLICTING_HOSTS,
-        inner.span,
-        f"`{what}` is assigned to two hosts: `{inner.text}`, and with its group `{outer.text}`",
-        notes=[Note(outer.span, "the host of its group")],
-        help="remove one of the two hosts, or move it out of the group",
-    )
 
 
 def resolve_port(ref: ast.PortRef, scope: DeploymentScope, report: Report) -> ast.PortRef | None:

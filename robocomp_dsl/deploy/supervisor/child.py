@@ -21,6 +21,7 @@ from robocomp_dsl.deploy.supervisor.hang_watch import HangWatch
 from robocomp_dsl.deploy.supervisor.notify import FOREIGN_VARIABLES
 from robocomp_dsl.deploy.supervisor.reaper import DEPLOYMENT_VARIABLE
 from robocomp_dsl.deploy.supervisor.resource_usage import ResourceUsage
+from robocomp_dsl.deploy.supervisor.scheduling import with_scheduling
 from robocomp_dsl.runtime.component.supervisor_pipe import HEARTBEAT_VARIABLE
 
 _CHUNK = 64 * 1024
@@ -51,15 +52,8 @@ class ChildProcess:
             HEARTBEAT_VARIABLE: str(hang_watch.write_end),
         }
         self._hang_watch = hang_watch
-        self._popen = subprocess.Popen(  # noqa: S603 - the command line is the user's own
-            process.argv,
-            cwd=process.cwd,
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            start_new_session=True,
-            pass_fds=(hang_watch.write_end,),
+        self._popen = with_scheduling(
+            process.limits, lambda: _start(process, environment, hang_watch.write_end)
         )
         hang_watch.watch(self._popen.pid)
         self.pid = self._popen.pid
@@ -137,6 +131,21 @@ class ChildProcess:
                 self._emit(record)
             stream.close()
         self._open.clear()
+
+
+def _start(
+    process: Process, environment: Mapping[str, str], heartbeats: int
+) -> subprocess.Popen[bytes]:
+    return subprocess.Popen(  # noqa: S603 - the command line is the user's own
+        process.argv,
+        cwd=process.cwd,
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+        pass_fds=(heartbeats,),
+    )
 
 
 def describe_exit(code: int) -> str:

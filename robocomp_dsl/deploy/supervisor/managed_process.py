@@ -77,6 +77,7 @@ class ManagedProcess:
                 restarts=len(self.restart_times),
                 note=self._note,
                 hang=self.hang,
+                members=tuple((member.name, "") for member in self.process.members),
             )
         child.usage.sample()
         return ProcessStatus(

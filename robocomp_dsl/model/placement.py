@@ -1,0 +1,41 @@
+"""How the host of an instance is chosen when its deployment starts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from robocomp_dsl.record import Record, ValueRecord
+
+if TYPE_CHECKING:
+    from robocomp_dsl.model.deployment import Host
+
+LABEL, LOAD = "label", "load"
+
+
+class Placement(ValueRecord):
+    """How the host of an instance is chosen; `kind` is `LABEL`, `LOAD`, or "" if it is given.
+
+    `candidates` are the possible hosts, in order of declaration. Instances with the same `unit`
+    (the group that says where they run, or their own name) run on the same host.
+    """
+
+    kind: str = ""
+    label: str = ""
+    candidates: tuple[Host, ...] = ()
+    unit: str = ""
+
+    def __str__(self) -> str:
+        """`on label gpu` or `by load on robot, desk`; empty if the host is given."""
+        if self.kind == LABEL:
+            return f"on label {self.label}"
+        if self.kind != LOAD:
+            return ""
+        among = f"label {self.label}" if self.label else ", ".join(h.name for h in self.candidates)
+        return f"by load on {among}"
+
+
+class LabelledHosts(Record):
+    """The hosts that have a label, by name."""
+
+    label: str
+    hosts: tuple[str, ...]
