@@ -209,7 +209,9 @@ def _reach_problems(
     code = codes.UNSUITABLE_MIDDLEWARE
     hosts = {connection.source.host.address, connection.target.host.address}
     external = isinstance(connection.source, External) or isinstance(connection.target, External)
-    if not capabilities.between_processes:
+    ends = (connection.source, connection.target)
+    in_one_process = bool(ends[0].process) and ends[0].process == ends[1].process
+    if not capabilities.between_processes and not in_one_process:
         message = f"`{name}` cannot connect processes, and each component is a process"
         yield _Problem(code, message)
     elif len(hosts) > 1 and connection.middleware and not external | capabilities.between_hosts:

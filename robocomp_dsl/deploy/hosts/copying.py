@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import Path
+from collections.abc import Callable, Mapping
 
-from robocomp_dsl.deploy.content.tree import Tree
-from robocomp_dsl.deploy.hosts.connection import Upload
+from robocomp_dsl.deploy.content.transfer import upload_trees
+from robocomp_dsl.deploy.content.tree import ContentTree
 from robocomp_dsl.deploy.hosts.fleet import Fleet
 from robocomp_dsl.deploy.hosts.host_agent import HostAgent
 from robocomp_dsl.deploy.hosts.manifest import HostManifest
@@ -14,28 +13,21 @@ from robocomp_dsl.deploy.units import names
 
 
 async def copy_trees(
-    fleet: Fleet, described: Mapping[str, HostManifest], trees: Mapping[str, Tree]
+    fleet: Fleet,
+    described: Mapping[str, HostManifest],
+    trees: Mapping[str, ContentTree],
+    say: Callable[[str], object],
 ) -> None:
-    """Copy the trees that hosts lack."""
-    by_hash = {tree.hash: tree for tree in trees.values()}
+    """Copy the files that hosts lack. A host that fails is in `fleet.failures`."""
 
     async def copy(agent: HostAgent) -> None:
         manifest = described.get(agent.host.name)
-        if manifest is None:
-            return
-        folder = f"{names.root_folder(manifest.deployment)}/trees"
-        for tree in {component.tree for component in manifest.components}:
-            exists = await agent.connection.run(["test", "-d", f"{folder}/{tree}"])
-            if exists.code:
-                new = f"{folder}/.{tree}.new"
-                files = [
-                    Upload(
-                        Path(file.source), f"{new}/{file.path}", 0o755 if file.executable else 0o644
-                    )
-                    for file in by_hash[tree].files
-                ]
-                await agent.connection.run(["mkdir", "-p", new])
-                await agent.connection.upload(files)
-                await agent.connection.run(["mv", "-T", new, f"{folder}/{tree}"])
+        if manifest is not None:
+            here = {c.tree: trees[c.name] for c in manifest.components}
+            root = names.root_folder(manifest.deployment)
+            result = await upload_trees(agent.connection, root, list(here.values()))
+            if result.files:
+                size = f"{result.bytes / 1e6:.1f} MB"
+                say(f"{agent.host.name}: copied {result.files} files, {size}")
 
     await fleet.each(copy)
