@@ -1,4 +1,4 @@
-"""Brings the trees of a deployment to its hosts, before anything that runs changes."""
+"""Brings files and keys of a deployment to its hosts, before anything that runs changes."""
 
 from __future__ import annotations
 
@@ -6,8 +6,10 @@ from collections.abc import Callable, Mapping
 
 from robocomp_dsl.deploy.content.transfer import upload_trees
 from robocomp_dsl.deploy.content.tree import ContentTree
+from robocomp_dsl.deploy.hosts.connection import Upload
 from robocomp_dsl.deploy.hosts.fleet import Fleet
 from robocomp_dsl.deploy.hosts.host_agent import HostAgent
+from robocomp_dsl.deploy.hosts.host_network import PRIVATE, HostNetwork
 from robocomp_dsl.deploy.hosts.manifest import HostManifest
 from robocomp_dsl.deploy.units import names
 
@@ -23,11 +25,32 @@ async def copy_trees(
     async def copy(agent: HostAgent) -> None:
         manifest = described.get(agent.host.name)
         if manifest is not None:
-            here = {c.tree: trees[c.name] for c in manifest.components}
+            here = {c.tree: trees[c.name] for c in manifest.components if c.tree}
             root = names.root_folder(manifest.deployment)
             result = await upload_trees(agent.connection, root, list(here.values()))
             if result.files:
                 size = f"{result.bytes / 1e6:.1f} MB"
                 say(f"{agent.host.name}: copied {result.files} files, {size}")
+
+    await fleet.each(copy)
+
+
+async def copy_private_files(
+    fleet: Fleet, deployment: str, networks: Mapping[str, HostNetwork]
+) -> None:
+    """Copy keys and network settings. Only the user of the host can read them."""
+
+    async def copy(agent: HostAgent) -> None:
+        if network := networks.get(agent.host.name):
+            root = names.root_folder(deployment)
+            folder = f"{root}/{PRIVATE}"
+            await agent.connection.run(["mkdir", "-p", "-m", "700", folder])
+            await agent.connection.run(["chmod", "700", folder])
+            await agent.connection.upload(
+                [
+                    Upload(content, f"{root}/{path}", 0o600)
+                    for path, content in network.files.items()
+                ]
+            )
 
     await fleet.each(copy)

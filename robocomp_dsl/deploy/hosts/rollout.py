@@ -196,7 +196,7 @@ async def _start(
     fleet: Fleet, described: Mapping[str, HostManifest], result: RolloutResult, report: Report
 ) -> None:
     components = {c.name: c for manifest in described.values() for c in manifest.components}
-    wanted = {
+    verbs = {
         change.component: change.verb
         for each in result.changes
         for change in each.components
@@ -205,8 +205,8 @@ async def _start(
     runner = UnitRunner(fleet.agents, components, report)
     await start_helpers(fleet, described)
     await runner.watch()
-    ordered = [name for name in components if name in wanted]
-    await runner.start(ordered, {name for name, verb in wanted.items() if verb == RESTART})
+    ordered = [name for name in components if name in verbs]
+    await runner.start(ordered, {name for name, verb in verbs.items() if verb == RESTART})
     result.failed.update(runner.failed)
     await enable(fleet, described)
 
