@@ -106,25 +106,6 @@ Right:
 """,
 )
 
-OTHER_MACHINE = Code(
-    "RC907",
-    Severity.ERROR,
-    "component on another machine",
-    """\
-rcdeploy starts components only on the machine it runs on: those without a host, on `localhost`, or
-on a host whose address is this machine. Remote hosts are not supported yet.
-
-Wrong:
-
-    host robot { address "10.0.0.2"; };
-    component arm on robot;
-
-Right:
-
-    component arm on localhost;
-""",
-)
-
 SCHEDULING = Code(
     "RC575",
     Severity.ERROR,
