@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from robocomp_dsl.deploy.units import names
-from robocomp_dsl.deploy.units.hosted_process import HostedProcess
-from robocomp_dsl.deploy.units.quoting import path
+from robocomp_dsl.deploy.units.hosted_process import HOST_PATHS, HostedProcess
+from robocomp_dsl.deploy.units.quoting import command_line, path
 from robocomp_dsl.deploy.units.service import service_unit
 
 LOG_BYTES = 100_000_000
@@ -29,8 +29,8 @@ def host_units(
 ) -> dict[str, str]:
     """The units of a host by name. Raises `UnitValueError`.
 
-    `root` is the folder of the deployment as in a unit file; `python` runs helpers. `more` are
-    further units that the target starts, such as that of the router.
+    `root` is the folder of the deployment, `python` runs helpers; both as in `HostedProcess`.
+    `more` are further units that the target starts, such as that of the router.
     """
     hosted = list(processes)
     on_host = frozenset(each.process.name for each in hosted)
@@ -72,11 +72,12 @@ AccuracySec=10
 
 
 def _trim_service(deployment: str, root: str, python: str) -> str:
+    command = [python, "-m", TRIM_LOGS, f"{root}/logs", str(LOG_BYTES)]
     return f"""\
 [Unit]
 Description={path(f"bounds the logs of {deployment}")}
 
 [Service]
 Type=oneshot
-ExecStart={python} -m {TRIM_LOGS} {root}/logs {LOG_BYTES}
+ExecStart={command_line(command, HOST_PATHS)}
 """

@@ -51,7 +51,7 @@ def argument(text: str, paths: PathMap = NO_PATHS) -> str:
 
 
 def command_line(words: Iterable[str], paths: PathMap = NO_PATHS) -> str:
-    """The words of a command line."""
+    """The words of a command line, the first of which is an absolute path."""
     return " ".join(argument(word, paths) for word in words)
 
 
@@ -80,8 +80,7 @@ def path(text: str, paths: PathMap = NO_PATHS) -> str:
 def _word(text: str, paths: PathMap, *, variables: bool) -> str:
     _check_text(text)
     word = "".join(_escape(literal, variables=variables) + to for literal, to in paths.split(text))
-    plain = _SAFE.fullmatch(word) and (not variables or not text.startswith(("@", "-", ":", "+")))
-    return word if plain else f'"{word}"'
+    return word if _SAFE.fullmatch(word) else f'"{word}"'
 
 
 def _escape(text: str, *, variables: bool) -> str:
