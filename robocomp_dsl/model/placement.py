@@ -10,8 +10,8 @@ LABEL, LOAD = "label", "load"
 class Placement(ValueRecord):
     """How the host of an instance is chosen; `kind` is `LABEL`, `LOAD`, or "" if it is given.
 
-    `candidates` are the names of the possible hosts, in order of declaration. Instances with the same `unit`
-    (the group that says where they run, or their own name) run on the same host.
+    `candidates` are the names of the possible hosts, in order of declaration. Instances with the
+    same `unit` (the group that says where they run, or their own name) run on the same host.
     """
 
     kind: str = ""
@@ -25,8 +25,7 @@ class Placement(ValueRecord):
             return f"on label {self.label}"
         if self.kind != LOAD:
             return ""
-        among = f"label {self.label}" if self.label else ", ".join(self.candidates)
-        return f"by load on {among}"
+        return f"by load on {f'label {self.label}' if self.label else ', '.join(self.candidates)}"
 
 
 class LabelledHosts(Record):
