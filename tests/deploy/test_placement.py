@@ -84,13 +84,12 @@ def test_place_by_label_chooses_host_with_fewest_components(tmp_path: Path) -> N
 
 
 def test_place_by_load_chooses_lowest_score_and_adds_components(tmp_path: Path) -> None:
-    body = "".join(
-        f"component c{i} : talker {{ place by load on robot, desk; }};" for i in range(5)
-    )
+    names = [f"c{i}" for i in range(5)]
+    body = "".join(f"component {n} : talker {{ place by load on robot, desk; }};" for n in names)
     loads = {"robot": HostLoad(1.0, 1.0, 1.0, 2), "desk": HostLoad(1.0, 1.0, 1.0, 4)}
     result = placed(tmp_path, body, loads)
-    assert hosts_of(result) == {f"c{i}": host for i, host in enumerate(["desk"] * 1 + [
-        "robot" if score else "desk" for score in (False, True, False, False)])}  # fmt: skip
+    chosen = ["desk", "robot", "desk", "desk", "robot"]
+    assert hosts_of(result) == dict(zip(names, chosen, strict=True))
     scores = [{score.host: score.score for score in choice.candidates} for choice in result.choices]
     assert scores == [
         {"robot": 0.5, "desk": 0.25},
@@ -178,13 +177,6 @@ def test_place_keeps_local_connections_on_one_host(tmp_path: Path) -> None:
 
 
 def test_place_reports_components_without_common_host(tmp_path: Path) -> None:
-    body = """
-        component body on label arm;
-        component one : reflex on label gpu;
-        component two : reflex { place by load on desk, rack; };
-        connect one.Laser -> body.Laser over local;
-        connect two.Laser -> one.Laser1 over local;
-    """
     body = """
         component a : filter on label gpu;
         component b : filter { place by load on robot, rack; };
