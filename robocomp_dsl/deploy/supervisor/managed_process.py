@@ -217,6 +217,7 @@ class ManagedProcess:
             return EXIT_NOT_FOUND
         self._started = True
         child = self.child = ChildProcess(self.process, started, emit, hang_watch)
+        self.context.changed()
         self.context.on_started(self, child)
         for pid, state in self._early_states:
             self.on_state_changed(pid, state)
