@@ -14,7 +14,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # Processes started by tests use the commands of this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: campaign conformance test-wheel test-tools test-peers fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
+.PHONY: campaign conformance test-wheel test-tools test-hosts test-peers fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
 
 demo: $(READY)
 	$(BIN)/python components/touch_demo/demo.py $(ARGS)
@@ -64,6 +64,11 @@ test-peers: $(READY)
 	$(BIN)/python -m pytest -q -n $(WORKERS) tests/middleware/conformance --middleware ice
 	tests/middleware/ros2/install-peers.sh $(PYTHON) build/peers-venv
 	build/peers-venv/bin/python -m pytest -q -m peers tests/middleware/ros2 tests/bridge/peers/test_ros2_bridge_peers.py
+
+# Deployments over several hosts: OpenSSH servers, systemd and networks in namespaces of their own.
+test-hosts: $(READY)
+	tests/hosts/install.sh
+	$(BIN)/python -m pytest -q -m hosts tests/hosts
 
 vsix:
 	cd editors/vscode && npm ci --no-audit --no-fund && npm run --silent package

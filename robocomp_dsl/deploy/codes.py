@@ -106,21 +106,45 @@ Right:
 """,
 )
 
-OTHER_MACHINE = Code(
-    "RC907",
+SCHEDULING = Code(
+    "RC575",
     Severity.ERROR,
-    "component on another machine",
+    "CPU cores or real-time priority not available",
     """\
-rcdeploy starts components only on the machine it runs on: those without a host, on `localhost`, or
-on a host whose address is this machine. Remote hosts are not supported yet.
+`cores` are CPU cores that the machine has, counted from 0. `realtime priority` needs the permission
+of the system: a line in /etc/security/limits.conf, valid from the next login, or the capability
+CAP_SYS_NICE.
 
-Wrong:
+Wrong, on a machine with four cores:
 
-    host robot { address "10.0.0.2"; };
-    component arm on robot;
+    component motor { cores 4; realtime priority 50; };
 
 Right:
 
-    component arm on localhost;
+    component motor { cores 3; realtime priority 50; };
+    // in /etc/security/limits.conf:  @realtime - rtprio 99
+""",
+)
+
+NO_FITTING_HOST = Code(
+    "RC576",
+    Severity.ERROR,
+    "no host fits components that must run together",
+    """\
+The members of a group that is placed as one run on the same host, and so do two components whose
+connection has no middleware that connects hosts, such as `local`. The host must be a candidate of
+all of them.
+
+Wrong:
+
+    host robot { address "10.0.0.2"; labels gpu; };
+    host desk { address "10.0.0.3"; labels arm; };
+    component vision on label gpu;
+    component motor on label arm;
+    connect vision.JointMotor -> motor.JointMotor over local;
+
+Right:
+
+    connect vision.JointMotor -> motor.JointMotor over zenoh;
 """,
 )

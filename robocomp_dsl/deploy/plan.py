@@ -45,7 +45,7 @@ class Process:
     (`key=value`) are those in `argv`; `config` None: the component's default, or what it finds by
     `context` and `config_name`. `port` 0: any free port. `host` and `group` are as written in the
     description, empty for this machine and for no group; `devices` are text lines. `is_program`:
-    it is no component.
+    it is no component. `watchdog_s`: a callback that takes longer hangs; 0: no limit.
     """
 
     name: str
@@ -59,6 +59,7 @@ class Process:
     start_timeout_s: float = START_TIMEOUT_S
     readiness: Readiness = field(default_factory=Readiness)
     limits: ResourceLimits = field(default_factory=ResourceLimits)
+    watchdog_s: float = 0.0
     port: int = 0
     config: Path | None = None
     context: str = ""
@@ -187,6 +188,7 @@ def _process(deployment: Deployment, instance: Instance, domain: str, interprete
         start_timeout_s=instance.start_timeout_s,
         readiness=instance.readiness,
         limits=instance.limits,
+        watchdog_s=_watchdog_s(instance),
         port=instance.port,
         config=instance.config,
         context=instance.context,
@@ -197,6 +199,11 @@ def _process(deployment: Deployment, instance: Instance, domain: str, interprete
         devices=describe_devices(instance.devices),
         is_program=instance.is_program,
     )
+
+
+def _watchdog_s(instance: Instance) -> float:
+    configured = instance.watchdog_s
+    return instance.component.watchdog_s if configured is None else configured
 
 
 def _watchdog_environment(instance: Instance) -> tuple[tuple[str, str], ...]:

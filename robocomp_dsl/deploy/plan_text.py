@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from robocomp_dsl.model.deployment import Clock, Host, Readiness, ResourceLimits
+from robocomp_dsl.model.deployment import UNPLACED, Clock, Host, Readiness
 
 
 def describe_host(host: Host) -> str:
     """The name and address of a host; empty for this machine without a name."""
+    if host is UNPLACED:
+        return ""
     same = host.address in ("", host.name) or not host.name
     return host.name if same else f"{host.name} ({host.address})"
 
@@ -29,10 +31,3 @@ def format_readiness(readiness: Readiness) -> str:
     if readiness.port:
         return f"when port {readiness.port} answers"
     return f"after {readiness.delay_s:g} s" if readiness.delay_s else ""
-
-
-def format_limits(limits: ResourceLimits) -> str:
-    """`memory 500 MB, cpu 80 %`; empty without limits."""
-    parts = [f"memory {limits.memory_bytes / 1e6:g} MB"] if limits.memory_bytes else []
-    parts += [f"cpu {limits.cpu * 100:g} %"] if limits.cpu else []
-    return ", ".join(parts)

@@ -18,7 +18,8 @@ from robocomp_dsl.deploy.middlewares import check_middlewares
 from robocomp_dsl.deploy.parameters import runtime_schema
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.deploy.port_addresses import check_port_addresses
-from robocomp_dsl.diagnostics import Code, Diagnostic, Note
+from robocomp_dsl.deploy.supervisor.scheduling import scheduling_error
+from robocomp_dsl.diagnostics import Code, Diagnostic
 from robocomp_dsl.finding import Finding
 from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.runtime.config import ConfigRequest, SearchEnvironment, resolve_config
@@ -39,12 +40,10 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
     findings: list[Diagnostic] = []
     findings += check_middlewares(deployment, KnownMiddlewares())
     for instance, process in zip(deployment.instances, plan.processes, strict=True):
-        if not instance.host.is_local:
-            findings.append(_remote_host(instance))
-            continue
         missing = list(_check_executable(instance, process))
         if missing or not instance.is_program:
             findings += missing or check_configuration(instance, process)
+        findings += _check_scheduling(instance)
     if ports:
         findings += _check_ports(deployment)
         findings += check_port_addresses(deployment, KnownMiddlewares(), _bind_error)
@@ -52,26 +51,14 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
     return findings
 
 
-def _remote_host(instance: Instance) -> Diagnostic:
-    host = instance.host
-    address = host.address or "an unknown address"
-    notes = (Note(host.span, f"`{host.name}` is declared here"),) if host.span else ()
-    return Diagnostic(
-        codes.OTHER_MACHINE,
-        instance.host_span or instance.span,
-        f"`{instance.name}` is on `{host.name}` ({address}); remote hosts are not supported yet",
-        label="rcdeploy starts components on this machine only",
-        notes=notes,
-        help="write `on localhost`, or run a separate deployment on that machine",
-    )
-
-
 def _check_executable(instance: Instance, process: Process) -> Iterator[Diagnostic]:
     if not process.cwd.is_dir():
         yield _diagnostic(instance, codes.EXECUTABLE, f"folder not found: {process.cwd}")
         return
     program = process.argv[0]
-    if not _program_exists(program, process):
+    # Only the host itself knows which programs it has.
+    is_here = instance.host.is_local or (os.sep in program and not Path(program).is_absolute())
+    if is_here and not _program_exists(program, process):
         yield _diagnostic(instance, codes.EXECUTABLE, f"program not found: `{program}`")
     script = process.argv[1] if len(process.argv) > 1 else ""
     if not script.endswith(".py") or (process.cwd / script).is_file():
@@ -83,6 +70,19 @@ def _check_executable(instance: Instance, process: Process) -> Iterator[Diagnost
     else:
         message = f"no {script} in {short_path(process.cwd)}"
         yield _diagnostic(instance, codes.EXECUTABLE, message)
+
+
+def _check_scheduling(instance: Instance) -> Iterator[Diagnostic]:
+    limits = instance.limits
+    if (limits.cores or limits.realtime) and (problem := scheduling_error(limits)):
+        yield _diagnostic(
+            instance,
+            codes.SCHEDULING,
+            problem,
+            "allow it in /etc/security/limits.conf: `@realtime - rtprio 99`"
+            if "realtime" in problem
+            else "write `cores` that the machine has",
+        )
 
 
 def _program_exists(program: str, process: Process) -> bool:
@@ -97,7 +97,7 @@ def check_configuration(instance: Instance, process: Process) -> list[Diagnostic
     schema = runtime_schema(parameters.parameters) if parameters else ()
     default = process.cwd / DEFAULT_CONFIG
     try:
-        config = process.config or _search_config(instance.name, process)
+        config = process.config or search_config(instance.name, process)
         config = config or (default if default.is_file() else None)
     except ConfigError as error:
         return [_config_diagnostic(instance, None, finding) for finding in error.findings]
@@ -108,7 +108,7 @@ def check_configuration(instance: Instance, process: Process) -> list[Diagnostic
     return []
 
 
-def _search_config(name: str, process: Process) -> Path | None:
+def search_config(name: str, process: Process) -> Path | None:
     """The file that the instance finds in its context; None: its default. Raises `ConfigError`."""
     if not (process.context or process.config_name):
         return None

@@ -21,6 +21,7 @@ HUNG = "hung"
 _COLOURS = {READY: "32", FAILED: "1;31", HUNG: "1;31", BACKOFF: "33", UNKNOWN: "33", STARTING: "36"}
 _COLUMNS = (
     "NAME",
+    "HOST",
     "STATE",
     "LIFE",
     "MACHINE",
@@ -32,7 +33,7 @@ _COLUMNS = (
     "OVERRUNS",
     "",
 )
-_OPTIONAL_COLUMNS = ("MACHINE", "OVERRUNS")
+_OPTIONAL_COLUMNS = ("HOST", "MACHINE", "OVERRUNS")
 """Columns that are left out if all their cells are empty."""
 _EMPTY = "-"
 
@@ -44,7 +45,8 @@ class ProcessStatus:
     `up_s`: seconds since its start; `cpu`: 1.0 is one core; `memory` in bytes. `life` is the
     lifecycle state; `machine` are the active states of the state machine, outer ones first, if they
     were queried. `note` is the reason for the state. `overruns` counts cycles that exceeded the
-    period; `hang` is the latest hang, also of an earlier process of the component.
+    period; `hang` is the latest hang, also of an earlier process of the component. `host` is empty
+    if the supervisor of this machine runs it.
     """
 
     name: str
@@ -59,6 +61,7 @@ class ProcessStatus:
     machine: tuple[str, ...] = ()
     overruns: int = 0
     hang: HangReport | None = None
+    host: str = ""
 
     @staticmethod
     def from_dict(fields: Mapping[str, Any]) -> ProcessStatus:
@@ -116,7 +119,8 @@ def _has_values(cells: Sequence[tuple[str, ...]], column: int) -> bool:
 
 
 def _cells(row: ProcessStatus) -> tuple[str, ...]:
-    states = (row.name, row.state, row.life or _EMPTY, ", ".join(row.machine) or _EMPTY)
+    machine = ", ".join(row.machine) or _EMPTY
+    states = (row.name, row.host or _EMPTY, row.state, row.life or _EMPTY, machine)
     if not row.pid:
         empty = (_EMPTY, _EMPTY, str(row.restarts), _EMPTY, _EMPTY, _EMPTY)
         return (*states, *empty, row.note)

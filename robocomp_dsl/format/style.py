@@ -66,10 +66,11 @@ STYLES: Mapping[str, Style] = {
         second=frozenset(("BRACKETED",)),
         inline_braces=True,
     ),
-    # set motors[2].min = 1;  restart on-failure;  connect a.B -> c.B;  when !(a || b);
+    # set motors[2].min = 1;  restart on-failure;  connect a.B -> c.B;  when !(a || b);  cores 2-3;
     "ddsl": Style(
-        before=_BEFORE - {"("} | {"-", "BRACKETED"},
-        after=_AFTER | {"-", "!"},
+        before=_BEFORE - {"("} | {"BRACKETED"},
+        after=_AFTER | {"!"},
+        pairs=frozenset((("NUMBER", "NUMBER"), ("ID", "-"), ("-", "ID"))),
         breaks=frozenset(("->",)),
     ),
     # :playing parallel { states a, b; };

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.devices import Devices
+from robocomp_dsl.model.placement import Placement
 from robocomp_dsl.model.types import Literal
 from robocomp_dsl.record import Record, ValueRecord
 from robocomp_dsl.source import Span
@@ -74,10 +75,16 @@ class Readiness(ValueRecord):
 
 
 class ResourceLimits(ValueRecord):
-    """Limits of a process and its children; 0: none. `cpu` 1.0 is one core."""
+    """Limits of a process and its children; 0: none. `cpu` 1.0 is one core.
+
+    `cores` are the numbers of the CPU cores on which it may run, in ascending order; empty: all.
+    `realtime` is its priority under SCHED_FIFO, 1 to 99; 0: the normal scheduler.
+    """
 
     memory_bytes: int = 0
     cpu: float = 0.0
+    cores: tuple[int, ...] = ()
+    realtime: int = 0
 
 
 THIS_MACHINE = "localhost"
@@ -85,17 +92,34 @@ THIS_MACHINE = "localhost"
 
 
 class Host(Record):
-    """A machine. The host with the name "" is this machine."""
+    """A machine, or one user of it. The host with the name "" is this machine.
+
+    `address` is a host name, an IP address or an alias of ssh, without brackets and port;
+    `ssh_port` 0: that of ssh's configuration. `port` is the TCP port of its router, 0: a number
+    that follows from the name of the deployment.
+    """
 
     name: str
     address: str
     user: str = ""
     labels: tuple[str, ...] = ()
     span: Span | None = None
+    port: int = 0
+    ssh_port: int = 0
+
+    @property
+    def machine(self) -> str:
+        """A name of its machine: "" for all hosts on this machine."""
+        return "" if self.is_local else self.name
 
     @property
     def is_local(self) -> bool:
-        """Whether the host is the machine on which the deployment is started."""
+        """Whether the host is the machine on which the deployment is started.
+
+        A loopback address with a port of ssh is another machine, behind a tunnel.
+        """
+        if self.ssh_port:
+            return False
         if self.address == THIS_MACHINE:
             return True
         try:
@@ -104,16 +128,24 @@ class Host(Record):
             return False
 
 
+HERE = Host("", "127.0.0.1")
+"""The host of an instance of which the file says nothing: this machine."""
+
+UNPLACED = Host("", "")
+"""The host of an instance whose host is chosen when the deployment starts."""
+
+
 class Instance(Record):
     """One component of the deployment.
 
     In a group, `name` is prefixed with the names of the groups: `arm-motor`; `group` is then `arm`,
-    otherwise empty. `host_span` is the reference to the host. With a `prefix`, the name of the
-    running component is `full_name`: `left/arm-motor`. `config` is None if the component uses its
-    own `etc/config.yaml` or searches for a file of the `context` or for `config_name` when it
-    starts; `settings` are the `set` lines with dotted keys; `executable` is a command line run in
-    the component's folder; `port` 0: any free port; `watchdog_s` None: as in the component;
-    `middleware` "": as in the component.
+    otherwise empty. `host` is `UNPLACED` until a host is chosen by `placement`; `host_span` is
+    where the file says it. `files` are further files and folders that it needs. With a `prefix`,
+    the name of the running component is `full_name`: `left/arm-motor`. `config` is None if the
+    component uses its own `etc/config.yaml` or searches for a file of the `context` or for
+    `config_name` when it starts; `settings` are the `set` lines with dotted keys; `executable` is a
+    command line run in the component's folder; `port` 0: any free port; `watchdog_s` None: as in
+    the component; `middleware` "": as in the component.
     `is_program`: a program that is no component; its `component` has no ports, and the path of the
     DDSL file.
     """
@@ -143,6 +175,8 @@ class Instance(Record):
     group: str = ""
     host_span: Span | None = None
     is_program: bool = False
+    placement: Placement = Placement()
+    files: tuple[Path, ...] = ()
 
     @property
     def full_name(self) -> str:

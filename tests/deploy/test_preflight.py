@@ -279,18 +279,20 @@ Deployment app
 """
 
 
-def test_check_rejects_remote_host_at_its_name(folder: Path) -> None:
-    checked = check_app(folder, app=PLACED.replace("WHERE", "robot"))
-    message = "`left-arm` is on `robot` (10.0.0.2); remote hosts are not supported yet"
-    assert finding_lines(checked, folder) == [f"app.ddsl:8:19 RC907 {message}"]
-    assert not checked.ready
+def test_check_leaves_remote_programs_to_their_host(folder: Path) -> None:
+    app = PLACED.replace("WHERE", "robot").replace('"abc";', '"abc"; executable "no-such-program";')
+    checked = check_app(folder, app=app)
+    assert checked.ready
+    assert checked.hosted
+    assert checked.plan
+    assert checked.plan.domain == "app"
 
 
 def test_check_accepts_groups_on_local_hosts(folder: Path) -> None:
     for where in ("desk", "localhost"):
         app = PLACED.replace("WHERE", where)
         checked = check_app(folder, app=app)
-        assert finding_lines(checked, folder) == []
+        assert {finding.code.id for finding in checked.findings} == {"RC573"}
         assert checked.plan is not None
         arm, eye = checked.plan.processes
         assert (arm.name, arm.group, eye.after) == ("left-arm", "left", ("left-arm",))
@@ -298,3 +300,10 @@ def test_check_accepts_groups_on_local_hosts(folder: Path) -> None:
         shown = "\n".join(as_text(checked.plan))
         assert f"1. left-arm (arm) in group left on {arm.host}" in shown
         assert "2. eye (eye) on localhost after left-arm" in shown
+
+
+def test_preflight_reports_cores_that_the_machine_does_not_have(folder: Path) -> None:
+    checked = check_app(folder, "cores 1022-1023;", "realtime priority 1; cores 0;")
+    (line,) = [line for line in finding_lines(checked, folder) if "1022" in line]
+    assert line.startswith("app.ddsl:6:15 RC575 `arm`: the CPU cores 1022-1023 cannot be used")
+    assert not checked.ready

@@ -16,7 +16,8 @@ from tests.language_server.editor_client import Editor, edited
 IDSL = "module M\n{{\n    enum Mode {{ Slow, Fast }};\n    struct S {{ {} }};\n    {}\n}};\n"
 CDSL = 'import "Laser.idsl";\nComponent c\n{{\n    Communications {{ {} }};\n    {}\n}};\n'
 DDSL = (
-    'import "reader.cdsl";\nimport "base.cdsl";\nDeployment d\n{{\n    host far {{ }};\n'
+    'import "reader.cdsl";\nimport "base.cdsl";\nDeployment d\n{{\n'
+    "    host far {{ labels gpu; }};\n"
     "    component eye : reader {{ {} }};\n    component base;\n    {}\n}};\n"
 )
 
@@ -57,6 +58,18 @@ CASES: list[tuple[str, str, set[str], set[str]]] = [
     ("d.ddsl", 'import "|', {"reader.cdsl", "base.cdsl"}, {"Laser.idsl"}),
     ("d.ddsl", DDSL.format("", "component x : |"), {"reader", "base"}, {"eye"}),
     ("d.ddsl", DDSL.format("", "component base on |"), {"far"}, {"reader"}),
+    ("d.ddsl", DDSL.format("", "component base on |"), {"label"}, {"gpu"}),
+    ("d.ddsl", DDSL.format("", "component base on label |"), {"gpu"}, {"far"}),
+    ("d.ddsl", DDSL.format("", "group g on |"), {"far", "label"}, {"gpu"}),
+    ("d.ddsl", DDSL.format("", "group g on label |"), {"gpu"}, {"far"}),
+    ("d.ddsl", DDSL.format("place |", ""), {"by"}, {"far"}),
+    ("d.ddsl", DDSL.format("place by load on |", ""), {"far", "label"}, {"gpu"}),
+    ("d.ddsl", DDSL.format("place by load on far, |", ""), {"far"}, {"gpu"}),
+    ("d.ddsl", DDSL.format("place by load on label |", ""), {"gpu"}, {"far"}),
+    ("d.ddsl", DDSL.format("realtime |", ""), {"priority"}, {"far"}),
+    ("d.ddsl", DDSL.format("|", ""), {"cores", "realtime", "files", "place"}, {"labels"}),
+    ("d.ddsl", DDSL.format('files "|', ""), {"reader.cdsl", "base.cdsl"}, {"eye"}),
+    ("d.ddsl", DDSL.format("", "host x { |"), {"address", "labels", "port", "user"}, {"cores"}),
     ("d.ddsl", DDSL.format("after |", ""), {"base", "eye"}, {"reader", "set"}),
     ("d.ddsl", DDSL.format("set |", ""), {"rate", "pid"}, {"gain"}),
     ("d.ddsl", DDSL.format("set pid.|", ""), {"gain"}, {"rate"}),

@@ -62,6 +62,7 @@ hi def link ddsl_clock_value ddslValue
 hi def link ddsl_clock_name ddslName
 hi def link ddsl_clock_field ddslField
 syn region ddsl_clock matchgroup=ddslKeyword start=/\<clock\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_clock_inner,ddsl_clock_value,ddsl_clock_name,ddsl_clock_field
+syn match ddsl_component_inner contained /\.\@<!\<label\>\.\@!\%(\s*\%(,\|;\|\h\|{\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_component_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_component_name contained /\%(\<component\s\+\)\@<=\h\w*/
 hi def link ddsl_component_inner ddslModifier
@@ -86,6 +87,11 @@ hi def link ddsl_context_value ddslValue
 hi def link ddsl_context_name ddslName
 hi def link ddsl_context_field ddslField
 syn region ddsl_context matchgroup=ddslKeyword start=/\<context\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_context_inner,ddsl_context_value,ddsl_context_name,ddsl_context_field
+hi def link ddsl_cores_inner ddslModifier
+hi def link ddsl_cores_value ddslValue
+hi def link ddsl_cores_name ddslName
+hi def link ddsl_cores_field ddslField
+syn region ddsl_cores matchgroup=ddslKeyword start=/\<cores\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_cores_inner,ddsl_cores_value,ddsl_cores_name,ddsl_cores_field
 hi def link ddsl_cpu_inner ddslModifier
 hi def link ddsl_cpu_value ddslValue
 hi def link ddsl_cpu_name ddslName
@@ -135,6 +141,11 @@ hi def link ddsl_extern_value ddslValue
 hi def link ddsl_extern_name ddslName
 hi def link ddsl_extern_field ddslField
 syn region ddsl_extern matchgroup=ddslKeyword start=/\<extern\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_extern_inner,ddsl_extern_value,ddsl_extern_name,ddsl_extern_field
+hi def link ddsl_files_inner ddslModifier
+hi def link ddsl_files_value ddslValue
+hi def link ddsl_files_name ddslName
+hi def link ddsl_files_field ddslField
+syn region ddsl_files matchgroup=ddslKeyword start=/\<files\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_files_inner,ddsl_files_value,ddsl_files_name,ddsl_files_field
 syn match ddsl_from_inner contained /\.\@<!\<and\>\.\@!\%(\s*\%((\|\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_from_inner contained /\.\@<!\<not\>\.\@!\%(\s*\%((\|\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_from_inner contained /\.\@<!\<or\>\.\@!\%(\s*\%((\|\h\|\/[*\/]\|$\)\)\@=/
@@ -144,6 +155,7 @@ hi def link ddsl_from_value ddslValue
 hi def link ddsl_from_name ddslName
 hi def link ddsl_from_field ddslField
 syn region ddsl_from matchgroup=ddslKeyword start=/\<from\>\%(\s*\%("\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_from_inner,ddsl_from_value,ddsl_from_name,ddsl_from_field
+syn match ddsl_group_inner contained /\.\@<!\<label\>\.\@!\%(\s*\%(,\|;\|\h\|{\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_group_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_group_name contained /\%(\<group\s\+\)\@<=\h\w*/
 hi def link ddsl_group_inner ddslModifier
@@ -210,6 +222,15 @@ hi def link ddsl_on_value ddslValue
 hi def link ddsl_on_name ddslName
 hi def link ddsl_on_field ddslField
 syn region ddsl_on matchgroup=ddslKeyword start=/\<on\>\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_on_inner,ddsl_on_value,ddsl_on_name,ddsl_on_field
+syn match ddsl_place_inner contained /\.\@<!\<by\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_place_inner contained /\.\@<!\<label\>\.\@!\%(\s*\%(,\|;\|\h\|{\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_place_inner contained /\.\@<!\<load\>\.\@!\%(\s*\%(;\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_place_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/
+hi def link ddsl_place_inner ddslModifier
+hi def link ddsl_place_value ddslValue
+hi def link ddsl_place_name ddslName
+hi def link ddsl_place_field ddslField
+syn region ddsl_place matchgroup=ddslKeyword start=/\<place\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_place_inner,ddsl_place_value,ddsl_place_name,ddsl_place_field
 syn match ddsl_port_inner contained /\.\@<!\<at\>\.\@!\%(\s*\%("\|\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_port_inner contained /\.\@<!\<over\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 hi def link ddsl_port_inner ddslModifier
@@ -228,6 +249,7 @@ hi def link ddsl_priority_value ddslValue
 hi def link ddsl_priority_name ddslName
 hi def link ddsl_priority_field ddslField
 syn region ddsl_priority matchgroup=ddslKeyword start=/\<priority\>\%(\s*\%([-+.0-9]\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_priority_inner,ddsl_priority_value,ddsl_priority_name,ddsl_priority_field
+syn match ddsl_program_inner contained /\.\@<!\<label\>\.\@!\%(\s*\%(,\|;\|\h\|{\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_program_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_program_name contained /\%(\<program\s\+\)\@<=\h\w*/
 hi def link ddsl_program_inner ddslModifier
@@ -247,6 +269,12 @@ hi def link ddsl_ready_value ddslValue
 hi def link ddsl_ready_name ddslName
 hi def link ddsl_ready_field ddslField
 syn region ddsl_ready matchgroup=ddslKeyword start=/\<ready\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_ready_inner,ddsl_ready_value,ddsl_ready_name,ddsl_ready_field
+syn match ddsl_realtime_inner contained /\.\@<!\<priority\>\.\@!\%(\s*\%([-+.0-9]\|\h\|\/[*\/]\|$\)\)\@=/
+hi def link ddsl_realtime_inner ddslModifier
+hi def link ddsl_realtime_value ddslValue
+hi def link ddsl_realtime_name ddslName
+hi def link ddsl_realtime_field ddslField
+syn region ddsl_realtime matchgroup=ddslKeyword start=/\<realtime\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_realtime_inner,ddsl_realtime_value,ddsl_realtime_name,ddsl_realtime_field
 hi def link ddsl_reliable_inner ddslModifier
 hi def link ddsl_reliable_value ddslValue
 hi def link ddsl_reliable_name ddslName

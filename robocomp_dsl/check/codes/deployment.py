@@ -322,7 +322,8 @@ DEPLOYMENT_NUMBER = Code(
     "a number or duration of a deployment is out of range",
     """\
 `max` and `depth` are whole numbers from 1. Durations are above 0 and up to a day, and have a unit:
-`ms`, `s` or `min`. `memory` is at least 1 MB; `cpu` is a share of one core above 0 %.
+`ms`, `s` or `min`. `memory` is at least 1 MB; `cpu` is a share of one core above 0 %. `cores` are
+counted from 0; `realtime priority` is from 1 to 99.
 
 Wrong:
 
@@ -378,7 +379,8 @@ HOST_ADDRESS = Code(
     Severity.ERROR,
     "invalid or missing host address",
     """\
-The address of a host is a host name or an IP address. `localhost` is this machine and needs no
+The address of a host is a host name, an alias in ~/.ssh/config or an IP address, also with the port
+of its ssh server: `10.0.0.2:2222`, `[fe80::1]:2222`. `localhost` is this machine and needs no
 declaration.
 
 Wrong:

@@ -11,13 +11,12 @@ from pathlib import Path
 from robocomp_dsl.check.cdsl.middlewares import find_middleware
 from robocomp_dsl.check.codes import connections as codes
 from robocomp_dsl.check.ddsl.components import ImportedComponents
-from robocomp_dsl.check.ddsl.instances import HERE
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.diagnostics import Report, nearest
 from robocomp_dsl.model.component import Component, Port, Role
-from robocomp_dsl.model.deployment import Connection, External
+from robocomp_dsl.model.deployment import HERE, Connection, External
 from robocomp_dsl.model.interface import Interface
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import QualifiedName

@@ -14,11 +14,13 @@ from robocomp_dsl.check.cdsl.middlewares import find_middleware
 from robocomp_dsl.check.codes import deployment as codes
 from robocomp_dsl.check.ddsl.components import ImportedComponents
 from robocomp_dsl.check.ddsl.contexts import config_search_of
+from robocomp_dsl.check.ddsl.copied_files import copied_files
 from robocomp_dsl.check.ddsl.devices import resolve_devices
 from robocomp_dsl.check.ddsl.own_ports import own_ports_of
+from robocomp_dsl.check.ddsl.places import DEFAULT_PLACE, InstancePlace
 from robocomp_dsl.check.ddsl.prefixes import prefix_of
 from robocomp_dsl.check.ddsl.programs import program_component
-from robocomp_dsl.check.ddsl.readiness import limits_of, readiness_of
+from robocomp_dsl.check.ddsl.readiness import limits_of, port_of, readiness_of
 from robocomp_dsl.check.ddsl.restarts import ready_of, restart_of
 from robocomp_dsl.check.ddsl.settings import settings_of
 from robocomp_dsl.check.literals import join_names
@@ -29,25 +31,25 @@ from robocomp_dsl.check.workspace.referenced_files import find_referenced_file
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.model.component import Component
-from robocomp_dsl.model.deployment import THIS_MACHINE, Host, Instance
+from robocomp_dsl.model.deployment import UNPLACED, Instance
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.syntax.ast import ddsl as ast
-from robocomp_dsl.syntax.ast.base import Name, Number, Text
+from robocomp_dsl.syntax.ast.base import Name, Text
 
-HERE = Host("", "127.0.0.1")
-_LOCAL = Host(THIS_MACHINE, THIS_MACHINE)
 DEFAULT_EXECUTABLE = "python3 main.py"
 _CONFIGURATIONS = (".yaml", ".yml", ".toml", "")
 """RoboComp's own configurations are named `config`, without a suffix."""
-_LAST_PORT = 65535
 
 
 class InstanceContext(ValueRecord):
-    """The context for resolving an instance. `path` is the path of the DDSL file."""
+    """The context for resolving an instance. `path` is the path of the DDSL file.
+
+    `places` are those of the instances by qualified name.
+    """
 
     path: Path
     imported: ImportedComponents
-    hosts: Mapping[str, Host]
+    places: Mapping[str, InstancePlace]
     workspace: Workspace
 
 
@@ -60,12 +62,13 @@ def resolve_instance(
         if tree.is_program
         else _component(tree.component or tree.name, around, report)
     )
-    host = _host(tree.host, around, report)
+    place = around.places.get(tree.name.text, DEFAULT_PLACE)
+    files = copied_files(tree.files, around.path, report)
     config = _config(tree.config, around, report)
     context, searched = config_search_of(tree, report)
     prefix = prefix_of(tree.prefix, report)
     executable = _executable(tree.executable, report)
-    port = _port(tree.port, report)
+    port = port_of(tree.port, report, "without `port` a free port is used")
     restart, ready = restart_of(tree.restart, report), ready_of(tree.ready, report)
     readiness, limits = readiness_of(tree.ready_when, report), limits_of(tree, report)
     watchdog = watchdog_of(tree.watchdog, codes.DEPLOYMENT_NUMBER, report)
@@ -78,7 +81,7 @@ def resolve_instance(
         name=tree.name.text,
         component=component,
         span=tree.name.span,
-        host=host,
+        host=place.host,
         config=config,
         context=context,
         config_name=searched,
@@ -98,18 +101,25 @@ def resolve_instance(
         own_ports=own_ports_of(tree.own_ports, component, around.workspace.middlewares, report),
         doc=tree.doc,
         group=group,
-        host_span=tree.host.span if tree.host else None,
+        host_span=place.span,
         is_program=tree.is_program,
+        placement=place.placement,
+        files=files,
     )
 
 
-def report_shared_ports(trees: Sequence[ast.Instance], report: Report) -> None:
+def report_shared_ports(
+    trees: Sequence[ast.Instance], places: Mapping[str, InstancePlace], report: Report
+) -> None:
     """Report two instances that would listen on the same port of the same machine."""
     first: dict[tuple[str, float], ast.Instance] = {}
     for tree in trees:
         if tree.port is None or not tree.port.value:
             continue
-        key = (tree.host.text if tree.host else "", tree.port.value)
+        host = places.get(tree.name.text, DEFAULT_PLACE).host
+        if host is UNPLACED:
+            continue
+        key = (host.machine, tree.port.value)
         earlier = first.setdefault(key, tree)
         if earlier is not tree and earlier.port is not None:
             report.add(
@@ -143,25 +153,6 @@ def _component(name: Name, context: InstanceContext, report: Report) -> Componen
     return None
 
 
-def _host(name: Name | None, context: InstanceContext, report: Report) -> Host:
-    if name is None:
-        return HERE
-    if name.text in context.hosts:
-        return context.hosts[name.text]
-    if name.text == THIS_MACHINE:
-        return _LOCAL
-    guess = nearest(name.text, context.hosts)
-    report.add(
-        codes.UNKNOWN_HOST,
-        name.span,
-        f"unknown host `{name.text}`",
-        label=f"did you mean `{guess}`?" if guess else "",
-        help="" if guess else f'declare it: `host {name.text} {{ address "10.0.0.2"; }};`',
-        fix=replace_fix(name.span, guess) if guess else None,
-    )
-    return HERE
-
-
 def _config(written: Text | None, context: InstanceContext, report: Report) -> Path | None:
     """The absolute path of a configuration file: components run in other folders."""
     if written is None:
@@ -183,17 +174,3 @@ def _executable(written: Text | None, report: Report) -> str:
         report.add(codes.COMMAND_LINE, written.span, what, help="for example `python3 main.py`")
         return DEFAULT_EXECUTABLE
     return written.value
-
-
-def _port(written: Number | None, report: Report) -> int:
-    if written is None:
-        return 0
-    if isinstance(written.value, int) and 1 <= written.value <= _LAST_PORT:
-        return written.value
-    report.add(
-        codes.PORT_NUMBER,
-        written.span,
-        f"a port is a whole number from 1 to {_LAST_PORT}, not `{written.span.text}`",
-        help="without `port` a free port is used",
-    )
-    return 0

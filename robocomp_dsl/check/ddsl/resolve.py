@@ -6,25 +6,26 @@ diagnostics of this file, and the errors of the files that it imports.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Mapping
-from ipaddress import ip_address
 
 from robocomp_dsl.check.cdsl.middlewares import find_middleware
 from robocomp_dsl.check.codes import deployment as codes
 from robocomp_dsl.check.ddsl.carriers import check_carriers, check_deployment_middleware
+from robocomp_dsl.check.ddsl.clock_hosts import check_clock_hosts
 from robocomp_dsl.check.ddsl.clocks import resolve_clock
 from robocomp_dsl.check.ddsl.components import CheckComponent, imported_components
 from robocomp_dsl.check.ddsl.connections import ExplicitConnections, explicit_connections
 from robocomp_dsl.check.ddsl.external_connections import resolve_external_connections
 from robocomp_dsl.check.ddsl.externals import report_unused_externals, resolve_externals
 from robocomp_dsl.check.ddsl.groups import resolve_groups, visible_exports
+from robocomp_dsl.check.ddsl.hosts import resolve_hosts
 from robocomp_dsl.check.ddsl.implicit_connections import implicit_connections
 from robocomp_dsl.check.ddsl.instances import InstanceContext, report_shared_ports, resolve_instance
 from robocomp_dsl.check.ddsl.monitored_servers import check_monitored_servers
 from robocomp_dsl.check.ddsl.monitors import ConnectionContext
 from robocomp_dsl.check.ddsl.order import start_order
 from robocomp_dsl.check.ddsl.own_ports import report_shared_addresses
+from robocomp_dsl.check.ddsl.places import resolve_places
 from robocomp_dsl.check.ddsl.scopes import (
     DeploymentScope,
     arbitrations_of,
@@ -33,16 +34,11 @@ from robocomp_dsl.check.ddsl.scopes import (
     flatten,
     scopes_of,
 )
-from robocomp_dsl.check.names.duplicates import unique_by_name
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.model.deployment import THIS_MACHINE, Connection, Deployment, Host, Instance
+from robocomp_dsl.model.deployment import Connection, Deployment, Instance
 from robocomp_dsl.syntax.ast import ddsl as ast
-from robocomp_dsl.syntax.ast.base import Name
-
-_ADDRESS = re.compile(r"[A-Za-z0-9](?:[A-Za-z0-9_.-]*[A-Za-z0-9])?")
-"""A host name or an IPv4 address."""
 
 
 def resolve_ddsl(
@@ -54,12 +50,11 @@ def resolve_ddsl(
     imported = imported_components(file.tree.imports, path, workspace, check, report)
     if tree is None:
         return None
-    hosts = {
-        node.name.text: _host(node, report) for node in unique_by_name(tree.hosts, "host", report)
-    }
-    context = InstanceContext(path, imported, hosts, workspace)
+    hosts = resolve_hosts(tree.hosts, report)
     scope = scopes_of(tree, report)
-    trees = flatten(scope, report)
+    places = resolve_places(scope, hosts, report)
+    context = InstanceContext(path, imported, places, workspace)
+    trees = flatten(scope)
     resolved = {
         node.name.text: resolve_instance(node, group, context, report) for node, group in trees
     }
@@ -67,7 +62,7 @@ def resolve_ddsl(
     unclear = resolved.keys() - known.keys()
     if not (trees or tree.groups or tree.external_connections):
         report.add(codes.EMPTY_DEPLOYMENT, tree.name.span, f"`{tree.name.text}` has no components")
-    report_shared_ports([node for node, _ in trees], report)
+    report_shared_ports([node for node, _ in trees], places, report)
     order = [known[name] for name in start_order(scope, report) if name in known]
     known_middlewares = workspace.middlewares
     externals = resolve_externals(
@@ -91,7 +86,9 @@ def resolve_ddsl(
             middleware, tree.middleware.span, known_middlewares, report
         )
     valid = [c for c in all_connections if not _follows_error(c, written.faulty_instances)]
-    check_carriers(valid, middleware, known_middlewares, report)
+    check_carriers(valid, middleware, hosts, known_middlewares, report)
+    clock = resolve_clock(tree.clock, order, complete=complete, report=report)
+    check_clock_hosts(tree.clock, clock, order, hosts, report)
     return Deployment(
         name=tree.name.text,
         path=path,
@@ -102,7 +99,7 @@ def resolve_ddsl(
         hosts=tuple(hosts.values()),
         doc=tree.doc,
         groups=groups,
-        clock=resolve_clock(tree.clock, order, complete=complete, report=report),
+        clock=clock,
         externals=tuple(externals.values()),
         external_connections=resolve_external_connections(
             tree.external_connections, known_middlewares, report
@@ -131,38 +128,3 @@ def _follows_error(connection: Connection, faulty: Collection[str]) -> bool:
     return connection.implied and (
         connection.source.name in faulty or connection.target.name in faulty
     )
-
-
-def _host(tree: ast.Host, report: Report) -> Host:
-    user = tree.user.text if isinstance(tree.user, Name) else tree.user.value if tree.user else ""
-    labels = tuple(label.text for label in tree.labels)
-    return Host(tree.name.text, _address(tree, report), user, labels, tree.name.span)
-
-
-def _address(tree: ast.Host, report: Report) -> str:
-    """The host name or IP address of a machine."""
-    name = tree.name.text
-    if tree.address is None:
-        if name == THIS_MACHINE:
-            return THIS_MACHINE
-        message = f"the host `{name}` has no address"
-        right = f'write `host {name} {{ address "10.0.0.2"; }};` or a host name'
-        report.add(codes.HOST_ADDRESS, tree.name.span, message, help=right)
-        return ""
-    written = tree.address.value.strip()
-    if not _ADDRESS.fullmatch(written) and not _is_ip_address(written):
-        message = f'"{written:.60}" is not a valid address'
-        right = (
-            "an address is a host name such as `robot.local` or an IP address such as `10.0.0.2`"
-        )
-        report.add(codes.HOST_ADDRESS, tree.address.span, message, help=right)
-        return ""
-    return written
-
-
-def _is_ip_address(written: str) -> bool:
-    try:
-        ip_address(written)
-    except ValueError:
-        return False
-    return True

@@ -32,7 +32,6 @@ class DeploymentScope:
     path: str
     tree: ast.Deployment | ast.Group
     outer: DeploymentScope | None
-    host: Name | None = None
     instances: dict[str, ast.Instance] = field(default_factory=dict)
     groups: dict[str, DeploymentScope] = field(default_factory=dict)
     exports: dict[str, ast.Export] = field(default_factory=dict)
@@ -91,9 +90,7 @@ def _filled(scope: DeploymentScope, report: Report) -> DeploymentScope:
         if name in scope.instances:
             report_duplicate(group.name, scope.instances[name].name, "component", report)
             continue
-        inner = DeploymentScope(scope.qualified_name(name), group, scope, group.host or scope.host)
-        if group.host and scope.host and group.host.text != scope.host.text:
-            report_conflicting_hosts(group.name.text, group.host, scope.host, report)
+        inner = DeploymentScope(scope.qualified_name(name), group, scope)
         scope.groups[name] = _filled(inner, report)
     if isinstance(tree, ast.Deployment):
         _externals(scope, tree, report)
@@ -123,29 +120,16 @@ def _exports(scope: DeploymentScope, tree: ast.Group, report: Report) -> None:
             report_duplicate(nested.port, earlier.port, "export", report)
 
 
-def report_conflicting_hosts(what: str, inner: Name, outer: Name, report: Report) -> None:
-    """Report a component or group that is assigned to two hosts."""
-    report.add(
-        codes.CONFLICTING_HOSTS,
-        inner.span,
-        f"`{what}` is assigned to two hosts: `{inner.text}`, and with its group `{outer.text}`",
-        notes=[Note(outer.span, "the host of its group")],
-        help="remove one of the two hosts, or move it out of the group",
-    )
-
-
-def flatten(scope: DeploymentScope, report: Report) -> list[tuple[ast.Instance, str]]:
+def flatten(scope: DeploymentScope) -> list[tuple[ast.Instance, str]]:
     """All instances with their groups, with qualified names as if there were no groups.
 
-    `component` is always set, `host` defaults to that of the group, and `after` lists qualified
-    names, including the dependencies of the group.
+    `component` is always set, and `after` lists qualified names, including the dependencies of the
+    group.
     """
     resolved: list[tuple[ast.Instance, str]] = []
     for nested in scope.descendants:
         waits = _group_dependencies(nested)
         for tree in nested.instances.values():
-            if tree.host and nested.host and tree.host.text != nested.host.text:
-                report_conflicting_hosts(tree.name.text, tree.host, nested.host, report)
             own = [
                 name for dependency in tree.after for name in _resolve_reference(dependency, nested)
             ]
@@ -153,7 +137,7 @@ def flatten(scope: DeploymentScope, report: Report) -> list[tuple[ast.Instance, 
                 tree.span,
                 Name(tree.name.span, nested.qualified_name(tree.name.text)),
                 tree.component or tree.name,
-                tree.host or nested.host,
+                tree.host,
                 tree.config,
                 tree.context,
                 tree.from_,
@@ -176,6 +160,11 @@ def flatten(scope: DeploymentScope, report: Report) -> list[tuple[ast.Instance, 
                 tree.own_ports,
                 tree.doc,
                 tree.is_program,
+                tree.label,
+                tree.place,
+                tree.cores,
+                tree.realtime,
+                tree.files,
             )
             resolved.append((renamed, nested.path))
     return resolved

@@ -7,15 +7,16 @@ runs.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import running
-from robocomp_dsl.deploy import control, instances
+from robocomp_dsl.deploy.engine import Engine, EngineError
+
+report = partial(print, flush=True)
 
 
-def split_names(
-    words: Sequence[str],
-) -> tuple[instances.RunningDeployment, list[str]]:
+def split_names(words: Sequence[str]) -> tuple[Engine, list[str]]:
     """The deployment that `words` mean, and the names of components and groups. Raises `CliError`.
 
     A first word that names a running deployment is that deployment, not a component of it.
@@ -26,18 +27,11 @@ def split_names(
     return running.resolve_deployment(first), list(words[1:])
 
 
-def request(deployment: instances.RunningDeployment, verb: str, names: Sequence[str]) -> None:
+def request(engine: Engine, verb: str, names: Sequence[str]) -> None:
     """Send the request and print its replies. Raises `CliError` unless it succeeds."""
-    message = {"verb": verb, "components": list(names)}
-    code = None
     try:
-        for reply in control.send_request(deployment.name, message):
-            code = reply.get("code", code)
-            if "text" in reply:
-                print(reply["text"], flush=True)
-    except instances.Unavailable as error:
+        code = engine.change(verb, names, report)
+    except EngineError as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None
-    if code is None:
-        raise CliError(EXIT_FINDINGS, f"`{deployment.name}` ended before it had done so")
     if code:
-        raise CliError(int(code))
+        raise CliError(code)

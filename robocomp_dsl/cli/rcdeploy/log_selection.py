@@ -12,6 +12,7 @@ from robocomp_dsl.cli.rcdeploy import running
 from robocomp_dsl.deploy import instances, log_runs
 from robocomp_dsl.deploy.log_runs import LogRun
 from robocomp_dsl.deploy.status import format_duration
+from robocomp_dsl.deploy.supervisor_engine import SupervisorEngine
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +27,7 @@ class SelectedRun:
     def components(self) -> list[str]:
         """The names of its components."""
         if self.deployment is not None:
-            return running.components(self.deployment)
+            return running.components(SupervisorEngine(self.deployment))
         description = log_runs.read_description(self.folder) if self.folder else None
         return list(description.components) if description else []
 
@@ -77,9 +78,9 @@ def _select_name(which: str | None) -> tuple[str, instances.RunningDeployment | 
         if latest is None:
             raise CliError(EXIT_FINDINGS, "no deployment is running, and no logs are stored")
         return latest.name, None
-    if which is None or any(running.is_meant(deployment, which) for deployment in known):
-        deployment = running.resolve_deployment(which)
-        return deployment.name, deployment
+    if which is None or any(which in (d.name, d.path) or _is_path(which, d.path) for d in known):
+        engine = running.resolve_deployment(which)
+        return engine.name, next(d for d in known if d.name == engine.name)
     stored = [r for r in _latest_runs() if which in (r.name, r.path) or _is_path(which, r.path)]
     if not stored:
         names = ", ".join(log_runs.stored_names())

@@ -18,7 +18,7 @@ import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import running
-from robocomp_dsl.deploy import instances
+from robocomp_dsl.deploy.engine import Engine
 from robocomp_dsl.diagnostics import did_you_mean
 
 if TYPE_CHECKING:
@@ -118,7 +118,7 @@ def set_(which: str, component: str, changes: tuple[str, ...], *, save: bool, dd
 
 
 def _write_to_ddsl(
-    deployment: instances.RunningDeployment,
+    deployment: Engine,
     name: str,
     values: dict[str, str],
     types: dict[str, str],
@@ -140,7 +140,7 @@ def _write_to_ddsl(
 
 
 def _report_overriding(
-    deployment: instances.RunningDeployment, name: str, component: str, values: dict[str, str]
+    deployment: Engine, name: str, component: str, values: dict[str, str]
 ) -> None:
     """Say which saved values the deployment overrides at the next start."""
     from robocomp_dsl.deploy import ddsl_settings  # noqa: PLC0415 - loads the parser
@@ -168,7 +168,7 @@ def _change(text: str) -> tuple[str, str]:
 
 
 @contextmanager
-def _proxies(deployment: instances.RunningDeployment) -> Iterator[ProxyFactory]:
+def _proxies(deployment: Engine) -> Iterator[ProxyFactory]:
     """Proxies of the `Component` interface of a deployment's components."""
     from robocomp_dsl.deploy import component_queries  # noqa: PLC0415 - loads a middleware
     from robocomp_dsl.runtime.errors import MiddlewareError, Timeout  # noqa: PLC0415

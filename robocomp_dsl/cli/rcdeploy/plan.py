@@ -17,8 +17,9 @@ from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import app as rcdeploy_app
 from robocomp_dsl.deploy.external_connection import describe_connection
 from robocomp_dsl.deploy.plan import Plan, Process, batches
-from robocomp_dsl.deploy.plan_text import format_limits, format_readiness
+from robocomp_dsl.deploy.plan_text import format_readiness
 from robocomp_dsl.model.deployment import ExternalConnection
+from robocomp_dsl.model.limits_text import format_limits
 
 
 @click.command()
@@ -96,7 +97,12 @@ def _process(process: Process) -> dict[str, Any]:
         },
         "start_timeout_s": process.start_timeout_s,
         "ready": format_readiness(process.readiness),
-        "limits": {"memory_bytes": process.limits.memory_bytes, "cpu": process.limits.cpu},
+        "limits": {
+            "memory_bytes": process.limits.memory_bytes,
+            "cpu": process.limits.cpu,
+            "cores": list(process.limits.cores),
+            "realtime": process.limits.realtime,
+        },
         "port": process.port,
         "devices": list(process.devices),
     }

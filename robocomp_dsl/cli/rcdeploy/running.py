@@ -1,38 +1,31 @@
-"""Selects a running deployment. In: a name, a file or nothing. Out: a `RunningDeployment`."""
+"""Selects a running deployment. In: a name, a file or nothing. Out: its `Engine`."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
-from typing import Any
 
 import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
-from robocomp_dsl.deploy import control, instances
+from robocomp_dsl.deploy import deployments
+from robocomp_dsl.deploy.engine import Engine, EngineError
 from robocomp_dsl.diagnostics import did_you_mean
 
 which = click.argument("which", metavar="[APP.ddsl|NAME]", required=False)
 
 
-def resolve_deployment(which: str | None) -> instances.RunningDeployment:
+def resolve_deployment(which: str | None) -> Engine:
     """The running deployment with that name or file, or the only one. Raises `CliError`."""
-    try:
-        known = instances.running()
-    except instances.Unavailable as error:
-        raise CliError(EXIT_FINDINGS, str(error)) from None
-    matches = [deployment for deployment in known if which is None or is_meant(deployment, which)]
+    known = _known()
+    matches = [e for e in known if which is None or deployments.is_meant(e, which)]
     if len(matches) != 1:
         raise CliError(EXIT_FINDINGS, _selection_problem(which, matches, known))
     return matches[0]
 
 
-def all_deployments() -> list[instances.RunningDeployment]:
+def all_deployments() -> list[Engine]:
     """All running deployments of this user. Raises `CliError` if there is none."""
-    try:
-        known = instances.running()
-    except instances.Unavailable as error:
-        raise CliError(EXIT_FINDINGS, str(error)) from None
+    known = _known()
     if not known:
         raise CliError(EXIT_FINDINGS, _selection_problem(None, [], []))
     return known
@@ -42,60 +35,46 @@ def is_deployment(word: str) -> bool:
     """Whether `word` names a running deployment, or a DDSL file. Raises `CliError`."""
     if word.lower().endswith(".ddsl"):
         return True
-    try:
-        return any(is_meant(deployment, word) for deployment in instances.running())
-    except instances.Unavailable as error:
-        raise CliError(EXIT_FINDINGS, str(error)) from None
+    return any(deployments.is_meant(engine, word) for engine in _known())
 
 
 def is_running(word: str) -> bool:
     """Whether `word` is the name of a running deployment, and not also of its components."""
-    try:
-        found = [deployment for deployment in instances.running() if deployment.name == word]
-    except instances.Unavailable as error:
-        raise CliError(EXIT_FINDINGS, str(error)) from None
+    found = [engine for engine in _known() if engine.name == word]
     return bool(found) and word not in components(found[0])
 
 
+def _known() -> list[Engine]:
+    try:
+        return deployments.running_deployments()
+    except EngineError as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
+
+
 def _selection_problem(
-    which: str | None,
-    matches: list[instances.RunningDeployment],
-    known: list[instances.RunningDeployment],
+    which: str | None, matches: Sequence[Engine], known: Sequence[Engine]
 ) -> str:
-    names = ", ".join(
-        f"{deployment.name} (pid {deployment.pid})" for deployment in matches or known
-    )
+    names = ", ".join(f"{engine.name} ({engine.summary()})" for engine in matches or known)
     if matches:
         return f"several deployments are running: {names}; select one by name"
     what = f"`{which}` is not running" if which else "no deployment is running"
     return what + (f"; running: {names}" if names else "")
 
 
-def is_meant(deployment: instances.RunningDeployment, which: str) -> bool:
-    """Whether `which` is its name or its file."""
-    return which == deployment.name or str(Path(which).resolve()) == deployment.path
-
-
-def components(deployment: instances.RunningDeployment) -> list[str]:
-    """The full names of its components and programs."""
-    return [str(row["name"]) for row in _status(deployment)["rows"]]
-
-
-def answering_components(deployment: instances.RunningDeployment) -> list[str]:
-    """The full names of its components, without the programs, which answer no calls."""
-    status = _status(deployment)
-    names = [str(row["name"]) for row in status["rows"]]
-    return [name for name in names if name not in status.get("programs", ())]
-
-
-def _status(deployment: instances.RunningDeployment) -> dict[str, Any]:
-    """The reply of the deployment's rcdeploy. Raises `CliError`."""
+def components(engine: Engine) -> list[str]:
+    """The full names of its components and programs. Raises `CliError`."""
     try:
-        return next(control.send_request(deployment.name, {"verb": "status"}))
-    except (instances.Unavailable, StopIteration):
-        raise CliError(
-            EXIT_FINDINGS, f"`{deployment.name}` does not answer; it may be ending"
-        ) from None
+        return engine.components()
+    except EngineError as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
+
+
+def answering_components(engine: Engine) -> list[str]:
+    """The full names of its components, without the programs. Raises `CliError`."""
+    try:
+        return engine.answering_components()
+    except EngineError as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
 
 
 def resolve_component(name: str, known: Sequence[str]) -> str:

@@ -1,6 +1,6 @@
 """`rcdeploy status`: shows a deployment's components. Out: a table or JSON.
 
-The supervisor knows the processes; lifecycles and state machines are queried from the components.
+The engine knows the processes; lifecycles and state machines are queried from the components.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import json
 import shutil
 import sys
 import time
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -17,9 +17,9 @@ import click
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import running
-from robocomp_dsl.deploy import control, instances, status
-from robocomp_dsl.deploy.external_connection import ConnectionStatus, format_connections
-from robocomp_dsl.deploy.external_program import ExternalProgram
+from robocomp_dsl.deploy import status
+from robocomp_dsl.deploy.engine import DeploymentStatus, Engine, EngineError
+from robocomp_dsl.deploy.external_connection import format_connections
 
 if TYPE_CHECKING:
     from robocomp_dsl.deploy.component_queries import ComponentState
@@ -36,8 +36,8 @@ def command(which: str | None, output_format: str) -> None:
 
     A component is well if it is ready or has exited. JSON: without a name, an array of deployments.
     """
-    deployments = [running.resolve_deployment(which)] if which else running.all_deployments()
-    reports = [_report(deployment) for deployment in deployments]
+    engines = [running.resolve_deployment(which)] if which else running.all_deployments()
+    reports = [_report(engine) for engine in engines]
     if output_format == "json":
         data = [report.as_data() for report in reports]
         print(json.dumps(data[0] if which else data, indent=1))
@@ -45,70 +45,60 @@ def command(which: str | None, output_format: str) -> None:
         width = shutil.get_terminal_size().columns if sys.stdout.isatty() else 1000
         colours = options.use_colours(sys.stdout)
         print("\n\n".join("\n".join(r.as_text(width, colours=colours)) for r in reports))
-    rows = [row for report in reports for row in report.rows]
-    if any(row.state not in (status.READY, status.EXITED) for row in rows):
+    rows = [row for report in reports for row in report.status.rows]
+    well = all(row.state in (status.READY, status.EXITED) for row in rows)
+    if not well or any(report.status.problems for report in reports):
         raise CliError(EXIT_FINDINGS)
 
 
 @dataclass(frozen=True, slots=True)
 class DeploymentReport:
-    """The status of one deployment; `clock` is None without a simulated clock.
+    """The status of one deployment, as the command shows it."""
 
-    `connections` are those between external programs. rcdeploy starts no external program, so it
-    knows no state of it.
-    """
-
-    deployment: instances.RunningDeployment
-    rows: list[status.ProcessStatus]
-    clock: dict[str, Any] | None
-    externals: list[ExternalProgram]
-    connections: list[ConnectionStatus]
+    engine: Engine
+    status: DeploymentStatus
 
     def as_data(self) -> dict[str, Any]:
         """For JSON."""
+        found = self.status
         return {
-            **asdict(self.deployment),
-            "components": [row.as_dict() for row in self.rows],
-            "clock": self.clock,
-            "externals": [program.as_dict() for program in self.externals],
-            "connections": [connection.as_dict() for connection in self.connections],
+            **self.engine.as_dict(),
+            "components": [row.as_dict() for row in found.rows],
+            "clock": found.clock.as_dict() if found.clock else None,
+            "externals": [program.as_dict() for program in found.externals],
+            "connections": [connection.as_dict() for connection in found.connections],
+            "problems": list(found.problems),
         }
 
     def as_text(self, width: int, *, colours: bool) -> list[str]:
         """A heading and a table."""
-        deployment = self.deployment
-        since = status.format_duration(time.time() - deployment.since)
-        process = f"pid {deployment.pid}, domain {deployment.domain}, up {since}"
-        lines = [f"{deployment.name}: {deployment.path}, {process}"]
-        lines += [status.SimulatedTime(**self.clock).format()] if self.clock else []
-        lines += status.format_table(self.rows, width, colours=colours)
-        lines += [" ".join(program.format()) for program in self.externals]
-        lines += ["", *format_connections(self.connections)] if self.connections else []
-        return lines + status.format_hangs(self.rows, time.time())
+        engine, found = self.engine, self.status
+        lines = [f"{engine.name}: {engine.path}, {engine.summary()}"]
+        lines += [found.clock.format()] if found.clock else []
+        lines += status.format_table(found.rows, width, colours=colours)
+        lines += [" ".join(program.format()) for program in found.externals]
+        lines += ["", *format_connections(found.connections)] if found.connections else []
+        lines += ["", *found.problems] if found.problems else []
+        return lines + status.format_hangs(found.rows, time.time())
 
 
-def _report(deployment: instances.RunningDeployment) -> DeploymentReport:
+def _report(engine: Engine) -> DeploymentReport:
     try:
-        answer = next(control.send_request(deployment.name, {"verb": "status"}))
-    except (instances.Unavailable, StopIteration):
-        raise CliError(
-            EXIT_FINDINGS, f"`{deployment.name}` does not answer; it may be ending"
-        ) from None
-    rows = [status.ProcessStatus.from_dict(row) for row in answer["rows"]]
-    externals = [ExternalProgram.from_dict(fields) for fields in answer.get("externals", ())]
-    links = [ConnectionStatus(**link) for link in answer.get("connections", ())]
-    rows = _with_component_state(deployment, rows)
-    return DeploymentReport(deployment, rows, answer["clock"], externals, links)
+        found = engine.status()
+    except EngineError as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
+    rows = _with_component_state(engine, found.rows)
+    return DeploymentReport(engine, replace(found, rows=rows))
 
 
 def _with_component_state(
-    deployment: instances.RunningDeployment, rows: list[status.ProcessStatus]
+    engine: Engine, rows: list[status.ProcessStatus]
 ) -> list[status.ProcessStatus]:
     """`rows` with the information of the components themselves."""
     from robocomp_dsl.deploy import component_queries  # noqa: PLC0415 - loads a middleware
 
     states = component_queries.fetch_states(
-        deployment.domain, [row.name for row in rows if row.life], CALL_TIMEOUT_S
+        engine.domain, [row.name for row in rows if row.life], CALL_TIMEOUT_S
     )
     return [_row(row, states.get(row.name)) for row in rows]
 

@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-import os
-import select
-
 import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import components
-from robocomp_dsl.deploy import control, instances
-
-EXIT_TIMEOUT_S = 5.0
-"""Maximum time for rcdeploy to exit after all its components have exited."""
+from robocomp_dsl.deploy.engine import EngineError
 
 
 @click.command()
@@ -22,28 +16,14 @@ def command(words: tuple[str, ...]) -> None:
 
     With names of components or groups: stop only these; the deployment continues.
     """
-    deployment, names = components.split_names(words)
+    engine, names = components.split_names(words)
     if names:
-        components.request(deployment, "stop", names)
+        components.request(engine, "stop", names)
         return
-    ended = _handle(deployment.pid)
     try:
-        answer = next(control.send_request(deployment.name, {"verb": "stop"}), None)
-    except instances.Unavailable as error:
+        result = engine.stop(components.report)
+    except EngineError as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None
-    if answer is None:
-        raise CliError(
-            EXIT_FINDINGS, f"`{deployment.name}` ended without a word; it may have been killed"
-        )
-    if ended is not None:
-        select.select([ended], [], [], EXIT_TIMEOUT_S)  # so that its name is free afterwards
-    print(f"{deployment.name}: {answer['reason']}")
-    if code := int(answer["code"]):
-        raise CliError(code)
-
-
-def _handle(pid: int) -> int | None:
-    try:
-        return os.pidfd_open(pid)
-    except OSError:
-        return None
+    print(f"{engine.name}: {result.reason}")
+    if result.code:
+        raise CliError(result.code)

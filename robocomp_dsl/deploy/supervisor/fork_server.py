@@ -195,6 +195,7 @@ def is_forkable(process: Process) -> bool:
         and argv[0] == sys.executable
         and argv[1].endswith(".py")
         and (process.cwd / argv[1]).is_file()
+        and not (process.limits.cores or process.limits.realtime)
         and not any(name.startswith(LOAD_VARIABLES) for name, _ in process.env)
     )
 

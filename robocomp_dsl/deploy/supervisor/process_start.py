@@ -14,6 +14,7 @@ from typing import IO, Protocol
 from robocomp_dsl.deploy.plan import Process
 from robocomp_dsl.deploy.supervisor.notify import FOREIGN_VARIABLES
 from robocomp_dsl.deploy.supervisor.reaper import DEPLOYMENT_VARIABLE
+from robocomp_dsl.deploy.supervisor.scheduling import with_scheduling
 from robocomp_dsl.runtime.component.supervisor_pipe import HEARTBEAT_VARIABLE
 
 
@@ -47,16 +48,8 @@ class ExecutedProcess:
     """A child process that executes its program. Raises `OSError` if that is not possible."""
 
     def __init__(self, process: Process, environment: Mapping[str, str], heartbeat: int) -> None:
-        self._popen = subprocess.Popen(  # noqa: S603 - the command line is the user's own
-            process.argv,
-            cwd=process.cwd,
-            env={**environment, HEARTBEAT_VARIABLE: str(heartbeat)},
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            start_new_session=True,
-            pass_fds=(heartbeat,),
-        )
+        variables = {**environment, HEARTBEAT_VARIABLE: str(heartbeat)}
+        self._popen = with_scheduling(process.limits, lambda: _execute(process, variables))
         assert self._popen.stdout is not None  # noqa: S101 - both are pipes
         assert self._popen.stderr is not None  # noqa: S101
         self.pid = self._popen.pid
@@ -65,6 +58,19 @@ class ExecutedProcess:
     async def exit_code(self) -> int:
         """See `StartedProcess`."""
         return self._popen.wait()
+
+
+def _execute(process: Process, environment: Mapping[str, str]) -> subprocess.Popen[bytes]:
+    return subprocess.Popen(  # noqa: S603 - the command line is the user's own
+        process.argv,
+        cwd=process.cwd,
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+        pass_fds=(int(environment[HEARTBEAT_VARIABLE]),),
+    )
 
 
 class ExecutingStarter:

@@ -36,6 +36,7 @@ from robocomp_dsl.model.deployment import (
     Instance,
     Qos,
 )
+from robocomp_dsl.model.limits_text import format_limits
 from robocomp_dsl.model.port_middlewares import connection_middleware
 
 
@@ -86,14 +87,14 @@ def _blocks(deployment: Deployment, site: DocumentationSite) -> Iterator[Block]:
     hosts = [TableRow(_host(host)) for host in deployment.hosts]
     if hosts:
         yield Heading(2, plain_text("Hosts"), "hosts")
-    yield from data_table("Hosts", ("host", "address", "user", "labels"), hosts)
+    yield from data_table("Hosts", ("host", "address", "user", "port", "labels"), hosts)
 
 
 def _instance(instance: Instance, site: DocumentationSite) -> tuple[Inlines, ...]:
     return (
         inline_code(instance.name),
         plain_text("program") if instance.is_program else site.link(instance.component),
-        inline_code(instance.host.name),
+        inline_code(str(instance.placement) or instance.host.name),
         join_inlines(_settings(instance)),
         _start(instance),
         _restart(instance),
@@ -118,6 +119,8 @@ def _settings(instance: Instance) -> Iterator[Inlines]:
         yield (PlainText("runs "), InlineCode(instance.executable))
     if instance.port:
         yield (PlainText("port "), InlineCode(str(instance.port)))
+    if limits := format_limits(instance.limits):
+        yield plain_text(limits)
 
 
 def _start(instance: Instance) -> Inlines:
@@ -219,5 +222,6 @@ def _host(host: Host) -> tuple[Inlines, ...]:
         inline_code(host.name),
         inline_code(host.address),
         inline_code(host.user),
+        inline_code(str(host.port or "")),
         join_inlines(map(inline_code, host.labels)),
     )

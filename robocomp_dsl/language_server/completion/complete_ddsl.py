@@ -114,9 +114,9 @@ def _in_setting(
         kind = lsp.CompletionItemKind.Class
         for each in names.components().values():
             yield CompletionCandidate(each.name, kind, "component", component_symbol(each))
-    elif first == "COMPONENT" and last == "_ON":
-        deployments = [file.deployment for file in names.files if file.deployment]
-        yield from value_candidates(*(h.name.text for d in deployments for h in d.hosts))
+    elif first in _PLACED_STATEMENTS and last in ("_ON", "LABEL", "COMMA"):
+        labels = last == "LABEL" and context.statement[-2].kind == "_ON"
+        yield from value_candidates(*_hosts_or_labels(names.files, labels=labels))
     elif first == "SET" and all(token.kind != "EQUAL" for token in context.statement):
         component = names.component_of_block()
         if component and component.parameters:
@@ -133,6 +133,7 @@ def _in_setting(
 _CONNECTION_STATEMENTS = frozenset(
     ("CONNECT", "EXPORT", "FROM", "ARBITRATE", "EXTERN", "MONITOR", "PORT")
 )
+_PLACED_STATEMENTS = frozenset(("COMPONENT", "PROGRAM", "GROUP", "PLACE"))
 _KEYWORD_VALUES = {"RESTART": POLICIES, "PRIORITY": PRIORITIES}
 """Keyword to the fixed values that may follow it."""
 
@@ -145,6 +146,14 @@ def _all_instances(files: Sequence[ast.File]) -> Iterator[ast.Instance]:
             block = todo.pop()
             yield from block.instances
             todo.extend(block.groups)
+
+
+def _hosts_or_labels(files: Sequence[ast.File], *, labels: bool) -> list[str]:
+    """The names of the hosts, or their labels."""
+    hosts = [host for file in files if file.deployment for host in file.deployment.hosts]
+    if labels:
+        return sorted({label.text for host in hosts for label in host.labels})
+    return list(dict.fromkeys(host.name.text for host in hosts))
 
 
 def _prefixes(instances: Sequence[ast.Instance]) -> list[str]:

@@ -25,6 +25,8 @@ def candidates(session: Session, context: CompletionContext) -> Iterator[Complet
     """The paths of the accepted files, as they are written in the file."""
     if context.previous_kind == "IMPORT":
         paths = _imports(session, context)
+    elif context.statement and context.statement[0].kind == "FILES":
+        paths = _entries_around(context)
     else:
         paths = _files_in_folder(session, context, SUFFIXES.get(context.previous_kind, ()))
     for path in paths:
@@ -47,6 +49,16 @@ def _imports(session: Session, context: CompletionContext) -> Iterator[str]:
     for path in session.known_files():
         if path.suffix.lower() == ".cdsl":
             yield os.path.relpath(path, context.path.parent).replace(os.sep, "/")
+
+
+def _entries_around(context: CompletionContext) -> Iterator[str]:
+    """Files and folders beside the file and beside its folder."""
+    for above in ("", "../"):
+        try:
+            names = sorted(os.listdir(context.path.parent / above))  # noqa: PTH208 - names only
+        except OSError:
+            continue
+        yield from (f"{above}{name}" for name in names if not name.startswith("."))
 
 
 def _files_in_folder(

@@ -34,6 +34,7 @@ TYPES = {
     "group": "namespace",
     "instance": "variable",
     "host": "variable",
+    "label": "enumMember",
     "statemachine": "class",
     "state": "enumMember",
     "event": "event",

@@ -10,6 +10,7 @@ from robocomp_dsl.language_server.signatures.signatures_idsl import format_inter
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.deployment import Connection, Deployment, External, Host, Instance
 from robocomp_dsl.model.parameter import Kind, Parameter, ParameterSet
+from robocomp_dsl.model.placement import LabelledHosts
 
 
 def format_parameter(parameter: Parameter) -> str:
@@ -69,9 +70,12 @@ def _port_with_interface(port: Port) -> str:
 
 def _instance(instance: Instance) -> str:
     host = f" on {instance.host.name}" if instance.host.name else ""
+    placed = f"placed {instance.placement}" if instance.placement.kind else ""
     if instance.is_program:
-        return f"program {instance.name}{host}    // {instance.executable}"
-    head = f"component {instance.name} : {instance.component.name}{host}\n"
+        remark = f"{instance.executable}, {placed}" if placed else instance.executable
+        return f"program {instance.name}{host}    // {remark}"
+    remark = f"    // {placed}" if placed else ""
+    head = f"component {instance.name} : {instance.component.name}{host}{remark}\n"
     over = f"middleware {instance.middleware};\n" if instance.middleware else ""
     return head + _prefix(instance) + over + _component(instance.component)
 
@@ -92,7 +96,16 @@ def _prefix(instance: Instance) -> str:
 
 
 def _host(host: Host) -> str:
-    return f'host {host.name} {{ address "{host.address}"; }};'
+    address = f"[{host.address}]" if ":" in host.address and host.ssh_port else host.address
+    address += f":{host.ssh_port}" if host.ssh_port else ""
+    user = f" user {host.user};" if host.user else ""
+    port = f" port {host.port};" if host.port else ""
+    labels = f" labels {', '.join(host.labels)};" if host.labels else ""
+    return f'host {host.name} {{ address "{address}";{user}{port}{labels} }};'
+
+
+def _label(label: LabelledHosts) -> str:
+    return f"label {label.label}    // of {', '.join(label.hosts)}"
 
 
 def _deployment(deployment: Deployment) -> str:
@@ -119,5 +132,6 @@ SIGNATURES: dict[type, Callable[[Any], str]] = {
     Instance: _instance,
     External: _external,
     Host: _host,
+    LabelledHosts: _label,
     Deployment: _deployment,
 }

@@ -21,6 +21,7 @@ from robocomp_dsl.language_server.symbols.symbols_pdsl import parameter_symbol
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.deployment import External
 from robocomp_dsl.model.parameter import Parameter
+from robocomp_dsl.model.placement import LabelledHosts
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Name
@@ -65,6 +66,7 @@ class _OccurrenceCollector:
         self._container = container
         self._workspace = workspace
         self._hosts: dict[str, Symbol] = {}
+        self._labels: dict[str, Symbol] = {}
         self._externals: dict[str, Symbol] = {}
 
     def of_hosts(self, tree: ast.Deployment) -> Iterator[Occurrence]:
@@ -72,6 +74,12 @@ class _OccurrenceCollector:
         for host in tree.hosts:
             self._hosts[host.name.text] = self._symbol(host.name, "host")
             yield Occurrence(host.name.span, self._hosts[host.name.text], declares=True)
+        for host in tree.hosts:
+            for label in host.labels:
+                first = label.text not in self._labels
+                if first:
+                    self._labels[label.text] = self._label(label, tree)
+                yield Occurrence(label.span, self._labels[label.text], declares=first)
 
     def of_externals(self, tree: ast.Deployment) -> Iterator[Occurrence]:
         """The external programs, which are also visible in groups."""
@@ -89,6 +97,7 @@ class _OccurrenceCollector:
         for group in tree.groups:
             instances[group.name.text] = self._symbol(group.name, "group")
             yield Occurrence(group.name.span, instances[group.name.text], declares=True)
+            yield from self._place(group)
             yield from self.of_block(group)
         kinds = {
             i.name.text: (i.component or i.name).text for i in tree.instances if not i.is_program
@@ -124,8 +133,7 @@ class _OccurrenceCollector:
             yield Occurrence(name.span, component_symbol(component), rename_template=template)
         template = f"{{}} : {own}" if short else "{}"
         yield Occurrence(tree.name.span, known[own], declares=True, rename_template=template)
-        if tree.host:
-            yield from _name_occurrence(tree.host, self._hosts)
+        yield from self._place(tree)
         for name in tree.after:
             yield from _name_occurrence(name, known)
         if component:
@@ -136,6 +144,24 @@ class _OccurrenceCollector:
                 yield from _key_occurrences(
                     setting.key, component.parameters.parameters, component.name
                 )
+
+    def _label(self, name: Name, tree: ast.Deployment) -> Symbol:
+        """The symbol of a label, which may belong to several hosts."""
+        hosts = [h.name.text for h in tree.hosts if name.text in [each.text for each in h.labels]]
+        labelled = LabelledHosts(name.text, tuple(hosts))
+        return Symbol(name.text, "label", name.span, labelled, self._container)
+
+    def _place(self, tree: ast.Instance | ast.Group) -> Iterator[Occurrence]:
+        """The host of a component or group, or the hosts and label among which one is chosen."""
+        hosts = [tree.host] if tree.host else []
+        labels = [tree.label] if tree.label else []
+        if tree.place is not None:
+            hosts += tree.place.hosts
+            labels += [tree.place.label] if tree.place.label else []
+        for name in hosts:
+            yield from _name_occurrence(name, self._hosts)
+        for name in labels:
+            yield from _name_occurrence(name, self._labels)
 
 
 def _name_occurrence(name: Name, symbols: Mapping[str, Symbol]) -> Iterator[Occurrence]:

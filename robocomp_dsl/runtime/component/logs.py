@@ -15,6 +15,8 @@ import sys
 import time
 from typing import TextIO
 
+HOST_VARIABLE = "ROBOCOMP_HOST"
+"""The name of this machine in the deployment; the default is its own name."""
 LEVELS = ("debug", "info", "warning", "error", "critical")
 _COLOURS = {"DEBUG": "2", "WARNING": "33", "ERROR": "31", "CRITICAL": "1;31"}
 
@@ -26,7 +28,7 @@ class JsonFormatter(logging.Formatter):
         super().__init__()
         self._constant_fields = {
             "component": component,
-            "host": socket.gethostname(),
+            "host": os.environ.get(HOST_VARIABLE) or socket.gethostname(),
             "pid": os.getpid(),
         }
 

@@ -33,9 +33,7 @@ def close_session(session: zenoh.Session, own: Path, port: int = 0) -> None:
     Closing twice, or after the peers have exited, is allowed.
     """
     linked = _linked_sockets(session)
-    # Not a daemon: a thread that leaves zenoh while the interpreter ends would abort the process.
-    closing = threading.Thread(target=_close, args=(session,), name="zenoh.close", daemon=False)
-    closing.start()
+    closing = _start_closing(session)
     closing.join(_GRACE_S)
     deadline = time.monotonic() + _DEADLINE_S
     period = _PERIOD_S
@@ -43,6 +41,18 @@ def close_session(session: zenoh.Session, own: Path, port: int = 0) -> None:
         _shut_down_pending(own, port, linked)
         closing.join(period)
         period = min(2 * period, _MAX_PERIOD_S)
+
+
+def close_client_session(session: zenoh.Session) -> None:
+    """Close a session that listens nowhere; its router may be away, or hang."""
+    _start_closing(session).join(_DEADLINE_S)
+
+
+def _start_closing(session: zenoh.Session) -> threading.Thread:
+    # Not a daemon: a thread that leaves zenoh while the interpreter ends would abort the process.
+    closing = threading.Thread(target=_close, args=(session,), name="zenoh.close", daemon=False)
+    closing.start()
+    return closing
 
 
 def _close(session: zenoh.Session) -> None:

@@ -1,7 +1,8 @@
-"""Discovery of processes of one user on one machine: a folder of sockets per domain.
+"""Opens a session in a domain: between the processes of one machine, or through a router.
 
-In: a domain. Out: an open zenoh session that is connected to every live process of the domain. Each
-process listens on a socket in the domain folder and connects to all members before it. Connections
+In: a domain. Out: an open zenoh session. With `NetworkSettings` it is a client of the router of its
+host. Otherwise the domain is a folder of sockets, for the processes of one user on one machine:
+each process listens on a socket in the folder and connects to all members before it. Connections
 are made in the background: a peer that does not respond is tried again until it does, and delays
 nobody. There is no multicast and no TCP port, unless a port is requested, which is bound to
 loopback. Every peer proves that it knows the token of the user.
@@ -19,9 +20,11 @@ import zenoh
 
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.file_lock import FileLock
-from robocomp_dsl.runtime.presence.close_session import close_session
+from robocomp_dsl.runtime.presence.client_session import open_client_session
+from robocomp_dsl.runtime.presence.close_session import close_client_session, close_session
 from robocomp_dsl.runtime.presence.domain_folder import Membership, join
 from robocomp_dsl.runtime.presence.domain_names import NameTaken, claim_component
+from robocomp_dsl.runtime.presence.network_settings import NetworkSettings, find_network_settings
 from robocomp_dsl.runtime.private_folder import USER, UnsafeFolder, read_token, token_file
 
 _WAIT_BEFORE_DROP_US = "transport/link/tx/queue/congestion_control/drop/wait_before_drop"
@@ -33,24 +36,33 @@ HANDSHAKE_TIMEOUT_MS = 3000
 
 @dataclass(frozen=True, slots=True)
 class DomainSession:
-    """A session, the socket that it listens on, and the component's claim on its name."""
+    """A session, the socket that it listens on, and the component's claim on its name.
+
+    `membership` is None, and `network` is not, if the session is a client of a router.
+    """
 
     session: zenoh.Session
-    membership: Membership
+    membership: Membership | None
     name: FileLock | None = None
     port: int = 0
+    network: NetworkSettings | None = None
 
     @property
     def socket(self) -> Path:
-        """The socket that the session listens on."""
+        """The socket that a session without network listens on."""
+        assert self.membership  # noqa: S101 - the caller has asked for a session without network
         return self.membership.socket
 
     def close(self) -> None:
         """Close the session and delete the socket; the last process also deletes the folder."""
-        close_session(self.session, self.socket, self.port)
+        if self.membership:
+            close_session(self.session, self.socket, self.port)
+        else:
+            close_client_session(self.session)
         if self.name:
             self.name.release(delete=True)
-        self.membership.leave()
+        if self.membership:
+            self.membership.leave()
 
 
 def open_session(
@@ -62,14 +74,24 @@ def open_session(
     called. `hold_s`: how long a peer that receives nothing may hold a publication; 0: the default
     of zenoh.
 
-    Raises `MiddlewareError` if the name is taken, or the folder or the port cannot be used.
+    Raises `MiddlewareError` if the name is taken, or the folder, the port or the router cannot be
+    used.
     """
+    network = find_network_settings(domain)
+    if network and port:
+        raise MiddlewareError(
+            f"port {port} cannot be used: in a network of hosts only routers listen; remove `port`"
+            " from the component"
+        )
     try:
         lock = claim_component(domain, name) if name else None
     except (NameTaken, UnsafeFolder, OSError) as error:
         raise MiddlewareError(str(error)) from None
     membership: Membership | None = None
     try:
+        if network:
+            session = open_client_session(network, hold_s=hold_s)
+            return DomainSession(session, None, lock, network=network)
         membership, others = join(domain)
         session = _open(membership.socket, others, port, hold_s)
     except (UnsafeFolder, MiddlewareError) as error:

@@ -15,12 +15,13 @@ from robocomp_dsl.syntax.ast.base import (
 
 
 class Host(Node):
-    """`host robot { address "10.0.0.2"; user robot; labels arm, gpu; };`."""
+    """`host robot { address "10.0.0.2"; user robot; labels arm, gpu; port 7450; };`."""
 
     name: Name
     address: Text | None = None
     user: Name | Text | None = None
     labels: tuple[Name, ...] = ()
+    port: Number | None = None
     doc: str = ""
 
 
@@ -64,6 +65,29 @@ class Memory(Node):
     unit: Name
 
 
+class OnLabel(Node):
+    """`on label gpu`: on a host that has this label."""
+
+    label: Name
+
+
+class CoreRange(Node):
+    """`0` or `2-3`: CPU cores; without `last` it is one core."""
+
+    first: Number
+    last: Number | None = None
+
+
+class Place(Node):
+    """`place by load on robot, desk;` or `place by load on label gpu;`.
+
+    Without `hosts` and `label` all hosts of the deployment are candidates.
+    """
+
+    hosts: tuple[Name, ...] = ()
+    label: Name | None = None
+
+
 class Device(Node):
     """`device arm : control_board { set part = LArm; };`."""
 
@@ -101,8 +125,9 @@ class OwnPort(Node):
 class Instance(Node):
     """`component reflex : reflex on robot { … };`.
 
-    `component` is None if it has the name of the instance; `host` None: this machine; `from_` is
-    the file of `from`. `is_program`: written as `program`, without component. If a setting is
+    `component` is None if it has the name of the instance; `from_` is the file of `from`. At most
+    one of `host`, `label` (of `on label gpu`) and `place` is valid; without any it runs on this
+    machine. `is_program`: written as `program`, without component. If a setting is
     repeated, the first one is stored (the second was reported).
     """
 
@@ -131,6 +156,11 @@ class Instance(Node):
     own_ports: tuple[OwnPort, ...] = ()
     doc: str = ""
     is_program: bool = False
+    label: Name | None = None
+    place: Place | None = None
+    cores: tuple[CoreRange, ...] = ()
+    realtime: Number | None = None
+    files: tuple[Text, ...] = ()
 
 
 class PortRef(Node):
@@ -243,7 +273,8 @@ class Export(Node):
 class Group(Node):
     """`group arm on robot { … };`: several components that appear as one from outside.
 
-    They run on `host` unless they name a host themselves, and start after those in `after`.
+    They run on one host, given by `host`, `label` or `place`, unless they name a host themselves,
+    and start after those in `after`.
     """
 
     name: Name
@@ -255,6 +286,8 @@ class Group(Node):
     groups: tuple[Group, ...] = ()
     arbitrations: tuple[Arbitration, ...] = ()
     doc: str = ""
+    label: Name | None = None
+    place: Place | None = None
 
 
 class LockStep(Node):

@@ -14,7 +14,7 @@ from robocomp_dsl.syntax.ast.base import Duration, Import, Name, Text
 from robocomp_dsl.syntax.codes import syntax as codes
 from robocomp_dsl.syntax.languages.builder import BlockSetting, of_kind
 from robocomp_dsl.syntax.languages.ddsl_connections import ConnectionsBuilder
-from robocomp_dsl.syntax.languages.ddsl_instances import InstancesBuilder
+from robocomp_dsl.syntax.languages.ddsl_instances import InstancesBuilder, split_on
 from robocomp_dsl.syntax.languages.parse_source import parse_source
 
 
@@ -31,14 +31,15 @@ class DdslBuilder(InstancesBuilder, ConnectionsBuilder):
         "file_item": "`import` or `Deployment`",
         "deployment_item": "`component`, `program`, `connect`, `extern`, `arbitrate`, `host`, "
         "`group`, `middleware`, `clock`",
-        "host_item": "`address`, `user`, `labels`",
+        "host_item": "`address`, `user`, `labels`, `port`",
         "instance_item": "a setting of the component (`config`, `set`, `after`, `device`, …)",
         "device_item": "`set`, a parameter of the device",
         "connection_item": "`reliable`, `best_effort`, `priority`, `keep`, `depth`, `latched`, "
         "`deadline`, `liveliness`, `thread priority`, `monitor`",
         "monitor_item": "an argument of the monitor, such as `max = 3;`",
         "arbitration_item": "`from`",
-        "group_item": "`component`, `program`, `connect`, `arbitrate`, `export`, `group`, `after`",
+        "group_item": "`component`, `program`, `connect`, `arbitrate`, `export`, `group`, "
+        "`after`, `place`",
     }
 
     def start(self, span: Span, *items: Any) -> ast.File:
@@ -106,12 +107,16 @@ class DdslBuilder(InstancesBuilder, ConnectionsBuilder):
         """`labels arm, gpu;`."""
         return BlockSetting(span, "labels", tuple(self.without_trailing_comma(names)))
 
-    def group(self, span: Span, name: Name, host: Name | None, *items: Any) -> ast.Group:
+    def group(
+        self, span: Span, name: Name, on: Name | ast.OnLabel | None, *items: Any
+    ) -> ast.Group:
         """`group name on host { … };`."""
+        host, label = split_on(on)
         return ast.Group(
             span,
             name,
             host,
+            label=label,
             instances=of_kind(ast.Instance, items),
             connections=of_kind(ast.Connection, items),
             exports=of_kind(ast.Export, items),

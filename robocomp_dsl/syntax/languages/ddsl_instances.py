@@ -22,27 +22,34 @@ class InstancesBuilder(DevicesBuilder):
     """The part of the DDSL builder for instances."""
 
     def instance(
-        self, span: Span, name: Name, kind: Name | None, host: Name | None, body: Any
+        self,
+        span: Span,
+        name: Name,
+        kind: Name | None,
+        on: Name | ast.OnLabel | None,
+        body: Any,
     ) -> ast.Instance:
         """`component name : kind on host { … };`."""
-        return self._instance_node(span, name, kind, host, body)
+        return self._instance_node(span, name, kind, on, body)
 
     def _instance_node(
         self,
         span: Span,
         name: Name,
         kind: Name | None,
-        host: Name | None,
+        on: Name | ast.OnLabel | None,
         body: Any,
         *,
         is_program: bool = False,
     ) -> ast.Instance:
         items = body or ()
+        host, label = split_on(on)
         return ast.Instance(
             span,
             name,
             kind,
             host,
+            label=label,
             settings=of_kind(ast.Setting, items),
             devices=of_kind(ast.Device, items),
             attachments=of_kind(ast.Attach, items),
@@ -54,13 +61,29 @@ class InstancesBuilder(DevicesBuilder):
             **self.settings(items),
         )
 
-    def program(self, span: Span, name: Name, host: Name | None, body: Any) -> ast.Instance:
+    def program(
+        self, span: Span, name: Name, on: Name | ast.OnLabel | None, body: Any
+    ) -> ast.Instance:
         """`program name on host { … };`."""
-        return self._instance_node(span, name, None, host, body, is_program=True)
+        return self._instance_node(span, name, None, on, body, is_program=True)
 
     def on(self, _span: Span, host: Name) -> Name:
         """`on host`."""
         return host
+
+    def on_label(self, span: Span, _keyword: Name, label: Name) -> ast.OnLabel:
+        """`on label gpu`."""
+        return ast.OnLabel(span, label)
+
+    def place(self, span: Span, candidates: ast.OnLabel | tuple[Name, ...] | None) -> BlockSetting:
+        """`place by load on a, b;`."""
+        if isinstance(candidates, ast.OnLabel):
+            return BlockSetting(span, "place", ast.Place(span, (), candidates.label))
+        return BlockSetting(span, "place", ast.Place(span, candidates or ()))
+
+    def place_hosts(self, _span: Span, *names: Any) -> tuple[Name, ...]:
+        """`on a, b`."""
+        return tuple(self.without_trailing_comma(names))
 
     def instance_body(self, _span: Span, *items: Any) -> tuple[Any, ...]:
         """The items between the braces."""
@@ -155,6 +178,39 @@ class InstancesBuilder(DevicesBuilder):
         """`cpu 80 %;`."""
         return BlockSetting(span, "cpu", share)
 
+    def cores(self, span: Span, *ranges: Any) -> BlockSetting:
+        """`cores 0, 2-3;`."""
+        return BlockSetting(span, "cores", tuple(self.without_trailing_comma(ranges)))
+
+    def core_range(self, span: Span, first: Number, last: Number | None) -> ast.CoreRange:
+        """`2` or `2 - 3`."""
+        return ast.CoreRange(span, first, last)
+
+    def signed_range(self, span: Span, first: Number, last: Number) -> ast.CoreRange:
+        """`2-3`: the lexer takes a `-` directly before a number for its sign."""
+        if not last.span.text.startswith("-"):
+            self.report(
+                codes.UNEXPECTED,
+                last.span,
+                f"expected `,` or `-` before `{last.span.text}`",
+                help="a list of cores is `cores 0, 2-3;`",
+            )
+            return ast.CoreRange(span, first)
+        return ast.CoreRange(span, first, Number(last.span, -last.value))
+
+    def realtime(self, span: Span, priority: Number) -> BlockSetting:
+        """`realtime priority 50;`."""
+        return BlockSetting(span, "realtime", priority)
+
+    def files(self, span: Span, *paths: Any) -> BlockSetting:
+        """`files "../meshes", "../maps";`."""
+        return BlockSetting(span, "files", tuple(self.without_trailing_comma(paths)))
+
     def watchdog(self, span: Span, limit: Duration) -> BlockSetting:
         """`watchdog 2 s;`."""
         return BlockSetting(span, "watchdog", limit)
+
+
+def split_on(on: Name | ast.OnLabel | None) -> tuple[Name | None, Name | None]:
+    """The host and the label of an `on`."""
+    return (None, on.label) if isinstance(on, ast.OnLabel) else (on, None)

@@ -87,11 +87,12 @@ def _external_connections(target: DomainTarget) -> list[ConnectionStatus]:
     """The connections between external programs that the rcdeploy of a deployment keeps."""
     if not target.deployment:
         return []
-    from robocomp_dsl.deploy import control, instances  # noqa: PLC0415 - not for --help
-    from robocomp_dsl.deploy.external_connection import ConnectionStatus  # noqa: PLC0415
+    from robocomp_dsl.deploy import deployments  # noqa: PLC0415 - not for --help
+    from robocomp_dsl.deploy.engine import EngineError  # noqa: PLC0415
 
     try:
-        answer = next(control.send_request(target.deployment, {"verb": "status"}))
-    except (instances.Unavailable, StopIteration):
+        running = deployments.running_deployments()
+        engine = next(engine for engine in running if engine.name == target.deployment)
+        return list(engine.status().connections)
+    except (EngineError, StopIteration):
         return []
-    return [ConnectionStatus(**link) for link in answer.get("connections", ())]

@@ -1,0 +1,120 @@
+"""Finds the files that an instance names outside or inside its component's folder.
+
+In: an instance, its process and what the deployment adds. Out: paths, as the component sees them.
+Reads folders only to see what exists.
+"""
+
+from __future__ import annotations
+
+import os
+import shlex
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from robocomp_dsl.deploy.plan import Process
+from robocomp_dsl.model.deployment import Connection, Instance
+
+_LONGEST_PATH = 4096
+
+
+@dataclass(frozen=True, slots=True)
+class NamedFile:
+    """A file or folder to copy. `text` is its path in the command line, empty if it is not there.
+
+    `required`: it is an error if it does not exist.
+    """
+
+    path: Path
+    text: str = ""
+    required: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class NamedFiles:
+    """What an instance names; `folders` exist on the host even if they are empty."""
+
+    files: tuple[NamedFile, ...]
+    folders: tuple[Path, ...]
+
+
+def named_files(
+    instance: Instance,
+    process: Process,
+    connections: Sequence[Connection],
+    description: Path,
+    extra: Sequence[Path],
+    config: Path | None,
+) -> NamedFiles:
+    """Files of the configuration, `set`, monitors, the command line and `extra`.
+
+    `description` is the DDSL file, `config` the configuration that the instance reads.
+    """
+    folder = process.cwd.resolve()
+    files = [NamedFile(place_of(config), str(config))] if config else []
+    files += [NamedFile(place_of(folder / path), str(path)) for path in extra]
+    files += _monitors(instance, connections)
+    files += _program_files(instance, folder)
+    bases = [config.absolute().parent] if config else []
+    bases += [folder, description.parent.resolve()]
+    folders = []
+    for text in _texts(instance):
+        files += _value_files(text, bases, folder)
+        if text.startswith(("../", "./")):
+            folders.append(place_of(folder / text).parent)
+    return NamedFiles(tuple(dict.fromkeys(files)), tuple(dict.fromkeys(folders)))
+
+
+def place_of(path: Path) -> Path:
+    """The absolute path without links in its folder; the last part may be a link."""
+    path = Path(os.path.normpath(path.absolute())) if path.name in ("..", "") else path
+    return path.parent.resolve() / path.name
+
+
+def _monitors(instance: Instance, connections: Sequence[Connection]) -> Iterator[NamedFile]:
+    for connection in connections:
+        for monitor in connection.monitors:
+            end = connection.source if monitor.position == "sender" else connection.target
+            if end is instance:
+                path = Path(monitor.file).resolve()
+                yield NamedFile(path, str(path))
+
+
+def _program_files(instance: Instance, folder: Path) -> Iterator[NamedFile]:
+    """Files that the words of `executable` name, relative to the folder or in it."""
+    for word in shlex.split(instance.executable):
+        path = folder / word
+        is_absolute = Path(word).is_absolute()
+        if path.is_file() and (not is_absolute or path.is_relative_to(folder)):
+            yield NamedFile(place_of(path), word if is_absolute else "")
+
+
+def _texts(instance: Instance) -> Iterator[str]:
+    """The texts among the values of `set` and of devices."""
+    values = [value for _, value in instance.settings]
+    values += [v for device in instance.devices.devices for _, v in device.parameters]
+    for value in values:
+        text = value if isinstance(value, str) else ""
+        if text and len(text) <= _LONGEST_PATH and "\0" not in text and "://" not in text:
+            yield text
+
+
+def _value_files(text: str, bases: Sequence[Path], folder: Path) -> Iterator[NamedFile]:
+    """The files that a value names; a folder only if the value has a slash."""
+    if Path(text).is_absolute():
+        path = Path(text)
+        homes = [home for home in (folder.parent, *bases, Path.home()) if home != home.parent]
+        if any(path.is_relative_to(home) for home in homes) and _exists(path, folders=False):
+            yield NamedFile(place_of(path), text, required=False)
+        return
+    for base in bases:
+        path = base / text
+        if _exists(path, folders="/" in text) and not folder.is_relative_to(path.resolve()):
+            yield NamedFile(place_of(path), required=False)
+
+
+def _exists(path: Path, *, folders: bool) -> bool:
+    try:
+        return path.is_file() or (folders and path.is_dir())
+    except OSError:  # a name that is too long, say
+        return False

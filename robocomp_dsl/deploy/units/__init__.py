@@ -1,0 +1,1 @@
+"""Texts of the systemd user units of a deployment; pure."""

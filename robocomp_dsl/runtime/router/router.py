@@ -1,0 +1,132 @@
+"""The router of one host: connects its components and other routers, with access control.
+
+In: `RouterSettings`. Out: an open router; a log line for each link and each refusal.
+"""
+
+from __future__ import annotations
+
+import errno
+import json
+import logging
+import socket
+from typing import Any
+
+import zenoh
+
+from robocomp_dsl.runtime.component.throttle import Throttle
+from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.runtime.presence.close_session import close_client_session
+from robocomp_dsl.runtime.presence.network_settings import parse_endpoint
+from robocomp_dsl.runtime.presence.tls_settings import RETRY, base_settings, tls_settings
+from robocomp_dsl.runtime.router.denied_use import describe_denial
+from robocomp_dsl.runtime.router.router_settings import RouterSettings
+from robocomp_dsl.runtime.router.zenoh_log import Denial, ZenohLog
+
+log = logging.getLogger("robocomp.router")
+MAX_LINKS = 10000
+_HANDSHAKES = "zenoh_link_tls"
+
+
+class Router:
+    """One running router. Raises `MiddlewareError` if it cannot listen."""
+
+    def __init__(self, settings: RouterSettings) -> None:
+        self._names: dict[str, str] = {}
+        self._throttle = Throttle()
+        for endpoint in settings.listen:
+            check_can_listen(endpoint)
+        ZenohLog(self._on_denial, self._on_warning)
+        self._session = _open(settings)
+        self._links = self._session.info.declare_link_events_listener(self._on_link, history=True)
+
+    def _on_link(self, event: zenoh.LinkEvent) -> None:
+        link = event.link
+        name = link.auth_identifier or "a program without certificate"
+        self._names[str(link.zid)] = name
+        if event.kind == zenoh.SampleKind.PUT:
+            log.info("%s is connected (%s)", name, link.dst)
+        else:
+            log.info("%s is no longer connected (%s)", name, link.dst)
+
+    def _on_denial(self, denial: Denial) -> None:
+        name = denial.name or self._names.get(denial.zid) or "a program with an unknown name"
+        text, fields = describe_denial(name, denial)
+        if self._throttle.allows(f"{name} {denial.action} {denial.key}"):
+            log.warning("%s", text, extra={"fields": fields})
+
+    def _on_warning(self, module: str, text: str) -> None:
+        if module.startswith(_HANDSHAKES):
+            text = f"refused a connection: {text}"
+        if self._throttle.allows(text):
+            log.warning("%s", text)
+
+    def close(self) -> None:
+        """Close all links."""
+        close_client_session(self._session)
+
+
+def check_can_listen(endpoint: str) -> None:
+    """Raise `MiddlewareError` if the address is not one of this host, or the port is in use."""
+    host, port = parse_endpoint(endpoint, "listen")
+    try:
+        addresses = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)
+    except OSError as error:
+        raise MiddlewareError(
+            f"the router cannot listen at {host}: no such host name ({error.strerror or error});"
+            " correct `address` of the host in the DDSL file"
+        ) from None
+    for family, kind, protocol, _, address in addresses:
+        with socket.socket(family, kind, protocol) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            try:
+                probe.bind(address)
+                probe.listen()
+            except OSError as error:
+                raise MiddlewareError(_bind_failure(host, port, error)) from None
+
+
+def _bind_failure(host: str, port: int, error: OSError) -> str:
+    place = f"the router cannot listen at {host} port {port}"
+    match error.errno:
+        case errno.EADDRINUSE:
+            return (
+                f"{place}: another program uses the port; stop it (`ss -ltnp` shows it), or give"
+                " the host another one in the DDSL file: port N;"
+            )
+        case errno.EADDRNOTAVAIL:
+            return (
+                f"{place}: this host does not have the address; correct `address` of the host in"
+                " the DDSL file, or wait until its network is up"
+            )
+        case _:
+            return f"{place}: {error.strerror or error}"
+
+
+def _open(settings: RouterSettings) -> zenoh.Session:
+    config = zenoh.Config()
+    for key, value in _settings(settings).items():
+        config.insert_json5(key, json.dumps(value))
+    try:
+        return zenoh.open(config)
+    except zenoh.ZError as error:
+        raise MiddlewareError(
+            f"the router cannot listen at {', '.join(settings.listen)}: {error}"
+        ) from None
+
+
+def _settings(settings: RouterSettings) -> dict[str, Any]:
+    files = settings.files
+    return {
+        "mode": "router",
+        "listen/endpoints": list(settings.listen),
+        "listen/exit_on_failure": True,
+        "connect/endpoints": list(settings.connect),
+        # -1: connect in the background, and again after a failure.
+        "connect/timeout_ms": -1,
+        "connect/exit_on_failure": False,
+        "connect/retry": RETRY,
+        "transport/unicast/max_sessions": MAX_LINKS,
+        "access_control": settings.access,
+        **base_settings(),
+        **tls_settings(files.ca, files.certificate, files.key, listen=True),
+    }

@@ -1,0 +1,287 @@
+"""A simulated host: namespaces of its own, OpenSSH, an unprivileged user, `systemd --user`."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import signal
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from tests.hosts.rig import accounts
+from tests.hosts.rig.cgroups import HostCgroups
+from tests.hosts.rig.namespaces import TestNetwork
+from tests.hosts.rig.requirements import SEARCH_PATH, systemd_program
+from tests.support.waiting import wait_until
+
+BOOT = Path(__file__).with_name("boot.py")
+CHECKOUT = Path(__file__).parents[3]
+
+
+@dataclass(frozen=True, slots=True)
+class BootSettings:
+    """What `boot.py` reads. `visible`: folders of this machine that the host sees, too."""
+
+    name: str
+    user: str
+    uid: int
+    files: str
+    home: str
+    cgroups: list[str]
+    systemd: str
+    visible: list[str]
+    hidden: list[str]
+    manager: bool = True
+    linger: bool = True
+    sshd: bool = True
+    disk_bytes: int = 0
+
+
+class SimulatedHost:
+    """One host. `address`, `user`, `uid`; `home` is its folder on this machine (see `home_path`).
+
+    `environment` is added to that of commands that `run` starts.
+    """
+
+    def __init__(self, settings: BootSettings, address: str, network: TestNetwork) -> None:
+        self.settings = settings
+        self.name = settings.name
+        self.user = settings.user
+        self.uid = settings.uid
+        self.address = address
+        self.environment: dict[str, str] = {}
+        self._files = Path(settings.files)
+        self._network = network
+        self._cgroups: HostCgroups | None = None
+        self._process: subprocess.Popen[str] | None = None
+        self._link = ""
+
+    # ------------------------------------------------------------------ life
+
+    def boot(self) -> None:
+        """Start the host; return when sshd listens and the user's manager takes commands."""
+        assert self._process is None, f"{self.name} runs already"
+        number = self.address.rsplit(".", 1)[1]
+        name = f"{self._network.number}-{number}-{self.name}"
+        self._cgroups = HostCgroups(name, self.uid)
+        folders = [str(folder) for folder in self._cgroups.folders]
+        settings = asdict(self.settings) | {"cgroups": folders}
+        path = self._files / "boot.json"
+        path.write_text(json.dumps(settings), "utf-8")
+        namespaces = ("--fork", "--pid", "--kill-child", "--mount", "--uts", "--ipc", "--net")
+        self._process = subprocess.Popen(
+            [
+                *("setpriv", "--pdeathsig", "KILL", "unshare", *namespaces),
+                *("--propagation", "private", sys.executable, "-S", "-E", str(BOOT), str(path)),
+            ],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=(self._files / "boot.log").open("wb"),
+            text=True,
+            env={"PATH": SEARCH_PATH},
+        )
+        self._expect("namespaces")
+        self._link = self._network.attach(self._process.pid, self.address)
+        self._expect("ready")
+
+    def _expect(self, line: str) -> None:
+        assert self._process
+        assert self._process.stdout
+        found = self._process.stdout.readline().strip()
+        if found != line:
+            self.power_off()
+            log = (self._files / "boot.log").read_text("utf-8", "replace")
+            raise AssertionError(
+                f"host {self.name} did not boot: expected {line}, {found!r}\n{log}"
+            )
+
+    def power_off(self) -> None:
+        """Kill every process of the host at once, and remove its link and cgroups."""
+        process, self._process = self._process, None
+        if process is None:
+            return
+        # The kernel kills the processes of a PID namespace with its first; unshare then ends.
+        children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text("ascii")
+        for pid in children.split() or [str(process.pid)]:
+            subprocess.run(["kill", "-KILL", pid], check=False, capture_output=True)
+        process.wait(60)
+        if process.stdout:
+            process.stdout.close()
+        self._network.detach(self._link)
+        if self._cgroups:
+            self._cgroups.remove()
+
+    def reboot(self) -> None:
+        """Power failure and boot: the home stays, /run and /tmp are empty."""
+        if self.settings.disk_bytes:
+            self.copy_home_back()
+        self.power_off()
+        self.boot()
+
+    def copy_home_back(self) -> None:
+        """Copy the small file system of the home to the test's folder, for the next boot."""
+        inside = f"/proc/{self.first_pid}/root/home/{self.user}"
+        subprocess.run(["cp", "-a", f"{inside}/.", self.settings.home], check=True)
+
+    @property
+    def is_running(self) -> bool:
+        """Whether the host is booted."""
+        return self._process is not None
+
+    @property
+    def first_pid(self) -> int:
+        """The process of this machine that is PID 1 of the host."""
+        assert self._process, f"{self.name} does not run"
+        pid = self._process.pid
+        return int(Path(f"/proc/{pid}/task/{pid}/children").read_text("ascii").split()[0])
+
+    # -------------------------------------------------------------- commands
+
+    @property
+    def home_path(self) -> Path:
+        """The home as the host sees it."""
+        return Path("/home", self.user)
+
+    @property
+    def home(self) -> Path:
+        """The home as this machine sees it, while the host runs."""
+        return Path(f"/proc/{self.first_pid}/root/home/{self.user}")
+
+    def user_environment(self) -> dict[str, str]:
+        """The environment of a login of the user."""
+        runtime = f"/run/user/{self.uid}"
+        return {
+            "HOME": str(self.home_path),
+            "USER": self.user,
+            "LOGNAME": self.user,
+            "LANG": "C.UTF-8",
+            "PATH": "/usr/local/bin:/usr/bin:/bin",
+            "XDG_RUNTIME_DIR": runtime,
+            "DBUS_SESSION_BUS_ADDRESS": f"unix:path={runtime}/bus",
+        } | self.environment
+
+    def command(
+        self, arguments: Sequence[str], *, root: bool = False, env: Mapping[str, str] | None = None
+    ) -> list[str]:
+        """The command line that runs `arguments` on the host, in the user's home."""
+        pid = self.first_pid
+        uid = 0 if root else self.uid
+        environment = [f"{k}={v}" for k, v in {**self.user_environment(), **(env or {})}.items()]
+        identity = (f"--reuid={uid}", f"--regid={uid}", "--clear-groups")
+        enter = ("nsenter", f"--target={pid}", "--mount", "--uts", "--ipc", "--net", "--pid")
+        script = f"cd {shlex.quote(str(self.home_path))} && exec {shlex.join(arguments)}"
+        return [*enter, "setpriv", *identity, "env", "-i", *environment, "sh", "-c", script]
+
+    def run(
+        self,
+        arguments: Sequence[str],
+        *,
+        root: bool = False,
+        check: bool = True,
+        input: str = "",
+        timeout: float = 120.0,
+        env: Mapping[str, str] | None = None,
+    ) -> subprocess.CompletedProcess[str]:
+        """Run a command on the host as its user (or root); `check`: it must exit with 0."""
+        completed = subprocess.run(
+            self.command(arguments, root=root, env=env),
+            input=input,
+            capture_output=True,
+            text=True,
+            timeout=timeout,
+            check=False,
+        )
+        if check:
+            text = f"{shlex.join(arguments)} on {self.name}: exit code {completed.returncode}"
+            assert completed.returncode == 0, f"{text}\n{completed.stdout}{completed.stderr}"
+        return completed
+
+    def popen(
+        self, arguments: Sequence[str], *, env: Mapping[str, str] | None = None, **options: Any
+    ) -> subprocess.Popen[Any]:
+        """Start a command on the host as its user. It ends with the host at the latest.
+
+        A signal to the process that this returns does not reach the command: use `send_signal`.
+        """
+        return subprocess.Popen(self.command(arguments, env=env), **options)
+
+    def send_signal(self, pattern: str, signal_number: int = signal.SIGKILL) -> None:
+        """Send a signal to all processes of the host whose command line matches `pattern`."""
+        self.run(["pkill", f"-{int(signal_number)}", "-f", pattern], root=True)
+
+    def systemctl(self, *arguments: str, check: bool = True) -> str:
+        """The output of `systemctl --user` on the host."""
+        return self.run(["systemctl", "--user", *arguments], check=check).stdout
+
+    # ------------------------------------------------------------------ link
+
+    def cut_link(self) -> None:
+        """Lose every packet to and from the host, as if a cable was pulled behind a switch."""
+        self._network.set_forwarding(self._link, on=False)
+
+    def restore_link(self) -> None:
+        """End `cut_link`."""
+        self._network.set_forwarding(self._link, on=True)
+
+    # ---------------------------------------------------------------- server
+
+    def write_sshd_config(self, extra: Sequence[str] = (), *, sftp: bool = True) -> None:
+        """Change the settings of sshd, and let it read them; open sessions stay."""
+        accounts.write_sshd_config(self._files, self.user, extra, sftp=sftp)
+        self.reload_sshd()
+
+    def reload_sshd(self) -> None:
+        """Let sshd read its settings and keys again."""
+        pid_file = Path(f"/proc/{self.first_pid}/root/run/sshd.pid")
+        pid = pid_file.read_text("ascii").strip()
+        pid_file.unlink()
+        self.run(["kill", "-HUP", pid], root=True)
+        wait_until(pid_file.exists, f"sshd of {self.name} did not read its settings")
+
+    def replace_host_key(self) -> None:
+        """Give sshd another key, as an installation from scratch does."""
+        accounts.make_host_key(self._files)
+        self.reload_sshd()
+
+    def host_key(self) -> str:
+        """The public host key: `ssh-ed25519 AAAA…`."""
+        return " ".join(accounts.read_host_key(self._files).split()[:2])
+
+    def sshd_log(self) -> str:
+        """What sshd has logged."""
+        return (self._files / "sshd.log").read_text("utf-8", "replace")
+
+
+def make_host(
+    folder: Path, name: str, network: TestNetwork, authorized_key: str, **options: Any
+) -> SimulatedHost:
+    """Prepare a host below `folder`; it is not booted. `options` are fields of `BootSettings`."""
+    address = network.new_address()
+    user = options.pop("user", name)
+    uid = 61000 + int(address.rsplit(".", 1)[1])
+    files = folder / name
+    home = folder / f"{name}-home"
+    (files / "etc").mkdir(parents=True)
+    home.mkdir()
+    accounts.write_accounts(files, user, uid)
+    accounts.make_host_key(files)
+    accounts.write_sshd_config(files, user)
+    accounts.authorize(home, uid, authorized_key)
+    visible = [CHECKOUT, Path(sys.base_prefix)] if options.pop("checkout", True) else []
+    settings = BootSettings(
+        name=name,
+        user=user,
+        uid=uid,
+        files=str(files),
+        home=str(home),
+        cgroups=[],
+        systemd=systemd_program(),
+        visible=[*map(str, visible), *map(str, options.pop("visible", ()))],
+        hidden=[str(path) for path in options.pop("hidden", ())],
+        **options,
+    )
+    return SimulatedHost(settings, address, network)

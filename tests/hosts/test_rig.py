@@ -1,0 +1,112 @@
+"""The simulated hosts themselves."""
+
+from __future__ import annotations
+
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.hosts.rig.hosts import Hosts
+from tests.support.waiting import wait_until
+
+SERVICE = """\
+[Service]
+ExecStart=/bin/sleep infinity
+Restart=always
+RestartSec=0.1
+[Install]
+WantedBy=default.target
+"""
+
+
+def ssh(hosts: Hosts, name: str, *command: str, options: tuple[str, ...] = ()) -> str:
+    """The output of a command on a host, by OpenSSH's client."""
+    host = hosts.by_name[name]
+    known = hosts.folder / "known_hosts"
+    known.write_text(hosts.known_hosts(), "ascii")
+    settings = (f"UserKnownHostsFile={known}", "StrictHostKeyChecking=yes", "BatchMode=yes")
+    flags = [word for setting in (*settings, *options) for word in ("-o", setting)]
+    target = f"{host.user}@{host.address}"
+    arguments = ["ssh", "-F", "/dev/null", "-i", str(hosts.key), *flags, target, "--", *command]
+    completed = subprocess.run(arguments, capture_output=True, text=True, timeout=60, check=False)
+    assert completed.returncode == 0, completed.stderr
+    return completed.stdout
+
+
+def main_pid(hosts: Hosts, name: str) -> int:
+    text = hosts.by_name[name].systemctl("show", "-P", "MainPID", "x.service")
+    return int(text)
+
+
+def test_simulated_host_has_own_user_and_files(hosts: Hosts) -> None:
+    started = time.monotonic()
+    host = hosts.start("robot")
+    print(f"booted in {time.monotonic() - started:.2f} s")  # noqa: T201 - a figure, with -s
+    assert host.run(["id", "-un"]).stdout.strip() == "robot"
+    assert host.run(["hostname"]).stdout.strip() == "robot"
+    assert host.run(["pwd"]).stdout.strip() == "/home/robot"
+    assert "pytest" not in host.run(["ls", "/tmp"]).stdout
+    assert "robot" not in Path("/etc/passwd").read_text("utf-8")
+    processes = host.run(["ps", "-e", "-o", "comm="]).stdout.split()
+    assert {"sshd", "systemd"} <= set(processes)
+    assert "pytest" not in processes
+
+
+def test_simulated_hosts_reach_each_other(module_hosts: Hosts) -> None:
+    hosts = module_hosts
+    robot, base = hosts.start("robot"), hosts.start("base")
+    assert ssh(hosts, "robot", "hostname").strip() == "robot"
+    assert ssh(hosts, "base", "hostname").strip() == "base"
+    script = f"import socket; socket.create_connection(('{base.address}', 22), 10); print('ok')"
+    assert robot.run(["python3", "-c", script]).stdout.strip() == "ok"
+
+
+def test_simulated_host_has_user_manager_over_ssh(module_hosts: Hosts) -> None:
+    hosts = module_hosts
+    robot = hosts.by_name["robot"]
+    units = robot.home_path / ".config/systemd/user"
+    robot.run(["mkdir", "-p", str(units)])
+    robot.run(["tee", str(units / "x.service")], input=SERVICE)
+    prefix = f"export XDG_RUNTIME_DIR=/run/user/{robot.uid};"
+    ssh(hosts, "robot", prefix, "systemctl --user daemon-reload")
+    ssh(hosts, "robot", prefix, "systemctl --user enable --now x.service")
+    first = main_pid(hosts, "robot")
+    robot.run(["kill", "-9", str(first)])
+    wait_until(lambda: main_pid(hosts, "robot") not in {0, first}, "the unit was not restarted")
+    assert "x.service" in robot.run(["cat", f"/proc/{main_pid(hosts, 'robot')}/cgroup"]).stdout
+
+
+def test_simulated_host_reboots_with_its_home(module_hosts: Hosts) -> None:
+    hosts = module_hosts
+    robot = hosts.by_name["robot"]
+    robot.run(["touch", "/tmp/temporary", "/home/robot/permanent"])
+    robot.reboot()
+    assert "temporary" not in robot.run(["ls", "/tmp"]).stdout
+    assert "permanent" in robot.run(["ls"]).stdout
+    wait_until(lambda: main_pid(hosts, "robot") > 0, "the enabled unit was not started")
+    assert ssh(hosts, "robot", "hostname").strip() == "robot"
+
+
+def test_simulated_host_link_is_cut_and_restored(module_hosts: Hosts) -> None:
+    hosts = module_hosts
+    base = hosts.by_name["base"]
+    base.cut_link()
+    with pytest.raises(AssertionError, match=r"timed out|No route"):
+        ssh(hosts, "base", "hostname", options=("ConnectTimeout=1",))
+    base.restore_link()
+    assert ssh(hosts, "base", "hostname").strip() == "base"
+
+
+def test_simulated_host_leaves_nothing(hosts: Hosts) -> None:
+    host = hosts.start("robot")
+    host.popen(["setsid", "sleep", "7654321"])
+    pid = wait_until(lambda: host.run(["pgrep", "-f", "sleep 7654321"], check=False).stdout)
+    assert pid
+    cgroups = [folder for folder in host._cgroups.folders if folder.exists()]
+    assert cgroups
+    host.power_off()
+    found = subprocess.run(["pgrep", "-f", "^sleep 7654321"], capture_output=True, check=False)
+    assert found.stdout == b""
+    assert not any(folder.exists() for folder in cgroups)
