@@ -125,3 +125,26 @@ Right:
     // in /etc/security/limits.conf:  @realtime - rtprio 99
 """,
 )
+
+NO_FITTING_HOST = Code(
+    "RC576",
+    Severity.ERROR,
+    "no host fits components that must run together",
+    """\
+The members of a group that is placed as one run on the same host, and so do two components whose
+connection has no middleware that connects hosts, such as `local`. The host must be a candidate of
+all of them.
+
+Wrong:
+
+    host robot { address "10.0.0.2"; labels gpu; };
+    host desk { address "10.0.0.3"; labels arm; };
+    component vision on label gpu;
+    component motor on label arm;
+    connect vision.JointMotor -> motor.JointMotor over local;
+
+Right:
+
+    connect vision.JointMotor -> motor.JointMotor over zenoh;
+""",
+)

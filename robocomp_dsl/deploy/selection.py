@@ -68,7 +68,7 @@ class Selectable(Protocol):
 
     @property
     def member_names(self) -> tuple[str, ...]:
-        """The full names of the components that run in it."""
+        """The components that run in it, if it is the process of a group."""
 
 
 def select_names(names: Iterable[str], processes: Sequence[Selectable]) -> list[str]:
@@ -97,7 +97,7 @@ def select_names(names: Iterable[str], processes: Sequence[Selectable]) -> list[
 
 def _has_member(process: Selectable, name: str) -> bool:
     """Whether a component of that name, with or without its prefix, runs in the process."""
-    return any(name in (m, m.rpartition("/")[2]) for m in process.member_names)
+    return any(name in (member, member.rpartition("/")[2]) for member in process.member_names)
 
 
 def _unknown(name: str, processes: Sequence[Selectable]) -> str:

@@ -45,9 +45,9 @@ class ProcessStatus:
     `up_s`: seconds since its start; `cpu`: 1.0 is one core; `memory` in bytes. `life` is the
     lifecycle state; `machine` are the active states of the state machine, outer ones first, if they
     were queried. `note` is the reason for the state. `overruns` counts cycles that exceeded the
-    period; `hang` is the latest hang, also of an earlier process of the component. `members` are
-    the components of a group in one process, each with its lifecycle state. `host` is empty if the
-    supervisor of this machine runs it.
+    period; `hang` is the latest hang, also of an earlier process of the component. `host` is empty
+    if the supervisor of this machine runs it. `members` are the components of a group in one
+    process, each with its lifecycle state.
     """
 
     name: str
@@ -62,8 +62,8 @@ class ProcessStatus:
     machine: tuple[str, ...] = ()
     overruns: int = 0
     hang: HangReport | None = None
-    members: tuple[tuple[str, str], ...] = ()
     host: str = ""
+    members: tuple[tuple[str, str], ...] = ()
 
     @staticmethod
     def from_dict(fields: Mapping[str, Any]) -> ProcessStatus:

@@ -16,10 +16,10 @@ import time
 from collections.abc import Callable
 from typing import TextIO, TypeAlias
 
-HOST_VARIABLE = "ROBOCOMP_HOST"
-"""The name of this machine in the deployment; the default is its own name."""
 ComponentOf: TypeAlias = Callable[[logging.LogRecord], str]
 """The component whose log a record belongs to."""
+HOST_VARIABLE = "ROBOCOMP_HOST"
+"""The name of this machine in the deployment; the default is its own name."""
 LEVELS = ("debug", "info", "warning", "error", "critical")
 _COLOURS = {"DEBUG": "2", "WARNING": "33", "ERROR": "31", "CRITICAL": "1;31"}
 

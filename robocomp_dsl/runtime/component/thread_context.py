@@ -14,7 +14,7 @@ import ctypes
 import os
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -25,11 +25,15 @@ _local = threading.local()
 
 @dataclass(slots=True, eq=False)
 class ThreadContext:
-    """The context of one component; `folder` is a descriptor, -1 without a folder of its own."""
+    """The context of one component; `folder` is a descriptor of `path`.
+
+    `builtins` are those of its modules: they import from its folder first.
+    """
 
     name: str
     path: Path
-    folder: int = -1
+    folder: int
+    builtins: dict[str, Any] = field(default_factory=dict)
 
 
 def create_context(name: str, path: Path) -> ThreadContext:

@@ -15,7 +15,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
-from importlib.util import resolve_name
+from importlib.util import find_spec, resolve_name
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -33,8 +33,8 @@ class ComponentModules(MetaPathFinder):
     def __init__(self, name: str, folder: Path) -> None:
         self.folder = folder
         self.package = f"{ROOT}.{re.sub(r'[^0-9A-Za-z]', lambda m: f'_{ord(m[0]):x}_', name)}"
-        self._own: dict[str, bool] = {}
-        self._builtins = {**vars(builtins), "__import__": self._import_name, _MARK: self}
+        self._own: dict[str, tuple[int, bool]] = {}
+        self.builtins = {**vars(builtins), "__import__": self._import_name, _MARK: self}
         for package in (ROOT, self.package):
             if package not in sys.modules:
                 module = ModuleType(package)
@@ -59,7 +59,7 @@ class ComponentModules(MetaPathFinder):
         is_top = fullname.count(".") == self.package.count(".") + 1
         spec = PathFinder.find_spec(fullname, self._search_path() if is_top else path)
         if spec is not None and type(spec.loader) is SourceFileLoader:
-            spec.loader = _ComponentLoader(fullname, spec.loader.path, self._builtins)
+            spec.loader = _ComponentLoader(fullname, spec.loader.path, self.builtins)
         return spec
 
     def _search_path(self) -> list[str]:
@@ -70,16 +70,15 @@ class ComponentModules(MetaPathFinder):
 
     def _is_own(self, top: str) -> bool:
         """Whether the top-level module `top` is in the folder of the component."""
-        known = self._own.get(top)
-        if known is None or not known:
-            name = f"{self.package}.{top}"
-            spec = PathFinder.find_spec(name, self._search_path())
+        entries, known = self._own.get(top, (0, False))
+        if entries != len(sys.path):  # the component may have added a folder
+            spec = PathFinder.find_spec(f"{self.package}.{top}", self._search_path())
             known = spec is not None and (
                 spec.origin is not None
                 # A folder without `__init__.py` is searched last.
-                or (top not in sys.modules and importlib.util.find_spec(top) is None)
+                or (top not in sys.modules and find_spec(top) is None)
             )
-            self._own[top] = known
+            self._own[top] = len(sys.path), known
         return known
 
     def _import_name(

@@ -81,7 +81,9 @@ class Member:
             log.error("the folder %s cannot be opened: %s", folder, error.strerror)  # noqa: TRY400
             return False
         self.has_own_folder = own_folder(context)
-        worker = self._worker_class()
+        modules = ComponentModules(self.name, folder)
+        context.builtins = modules.builtins
+        worker = self._worker_class(modules)
         if worker is None:
             return False
         runner = create_runner(worker, self._arguments.arguments, supervision)
@@ -100,9 +102,8 @@ class Member:
         self.abandoned = runner.abandoned
         return succeeded
 
-    def _worker_class(self) -> type[Component] | None:
+    def _worker_class(self, modules: ComponentModules) -> type[Component] | None:
         """The class that `main.py` of the component runs; None if it cannot be imported."""
-        modules = ComponentModules(self.name, self._arguments.folder)
         try:
             worker: type[Component] = getattr(modules.load("main"), WORKER_CLASS)
         except MissingExtra as error:
