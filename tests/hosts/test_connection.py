@@ -44,8 +44,9 @@ def run(task: Coroutine[Any, Any, Any]) -> Any:
     return asyncio.run(asyncio.wait_for(task, TEST_TIMEOUT_S))
 
 
-def host_of(machine: SimulatedHost, *, address: str = "", user: str | None = None) -> Host:
-    return Host(machine.name, address or machine.address, machine.user if user is None else user)
+def host_of(machine: SimulatedHost, address: str = "", user: str = "", port: int = 0) -> Host:
+    name = machine.name
+    return Host(name, address or machine.address, user or machine.user, ssh_port=port)
 
 
 def failure(host: Host) -> HostError:
@@ -164,19 +165,19 @@ def test_connection_notices_lost_link(robot: SimulatedHost) -> None:
 
 
 @pytest.mark.parametrize(
-    ("address", "user", "message"),
+    ("address", "user", "port", "message"),
     [
-        ("{}:2222", "robot", "nothing listens at port 2222"),
-        ("10.99.0.2", "robot", "no way to the address"),
-        ("nobody.invalid", "robot", "the name `nobody.invalid` has no address"),
-        ("{}", "root", "the login was refused: no key of ~/.ssh or of the SSH agent is accepted"),
-        ("{}", "stranger", "the login was refused"),
+        ("", "robot", 2222, "nothing listens at port 2222"),
+        ("10.99.0.2", "robot", 0, "no way to the address"),
+        ("nobody.invalid", "robot", 0, "the name `nobody.invalid` has no address"),
+        ("", "root", 0, "login was refused: no key of ~/.ssh or of the SSH agent is accepted"),
+        ("", "stranger", 0, "the login was refused"),
     ],
 )
 def test_connection_failure_says_why(
-    robot: SimulatedHost, address: str, user: str, message: str
+    robot: SimulatedHost, address: str, user: str, port: int, message: str
 ) -> None:
-    error = failure(host_of(robot, address=address.format(robot.address), user=user))
+    error = failure(host_of(robot, address, user, port))
     assert message in str(error)
     assert str(error).startswith("`robot` (")
     assert error.help

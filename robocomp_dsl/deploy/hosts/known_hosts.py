@@ -13,11 +13,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from robocomp_dsl.deploy.hosts.address import DEFAULT_PORT
-
 if TYPE_CHECKING:
     from asyncssh import SSHKey
 
+DEFAULT_PORT = 22
 SYSTEM_FILE = Path("/etc/ssh/ssh_known_hosts")
 REVOKED = "revoked"
 AUTHORITY = "cert-authority"

@@ -10,7 +10,7 @@ from collections.abc import AsyncIterator, Sequence
 from pathlib import Path
 
 from robocomp_dsl.deploy.hosts.address import describe_host
-from robocomp_dsl.deploy.hosts.connection import (
+from robocomp_dsl.deploy.hosts.commands import (
     COMMAND_TIMEOUT_S,
     ENVIRONMENT_SCRIPT,
     CommandResult,
@@ -45,7 +45,7 @@ class LocalProcess:
 
     async def close(self) -> CommandResult:
         """Close its input, and wait for its end."""
-        stdout, stderr = await self._process.communicate()
+        stdout, stderr = await self._process.communicate(b"")
         return CommandResult(_exit_code(self._process), stdout, stderr)
 
 

@@ -14,7 +14,7 @@ import asyncssh
 
 from robocomp_dsl.deploy.hosts import codes
 from robocomp_dsl.deploy.hosts.address import describe_host
-from robocomp_dsl.deploy.hosts.connection import (
+from robocomp_dsl.deploy.hosts.commands import (
     COMMAND_TIMEOUT_S,
     ENVIRONMENT_SCRIPT,
     CommandResult,
@@ -195,9 +195,10 @@ class SshConnection:
                     await target.setstat(attributes)  # the umask of the host changed it
                 await sftp.posix_rename(draft, file.remote)
             except (OSError, asyncssh.Error) as error:
+                described = await self._file_error("write", file.remote, error)
                 with contextlib.suppress(OSError, asyncssh.Error):
                     await sftp.remove(draft)
-                raise await self._file_error("write", file.remote, error) from None
+                raise described from None
 
     async def _make_folder(self, sftp: asyncssh.SFTPClient, folder: str) -> None:
         if folder not in self._folders:

@@ -12,7 +12,7 @@ import socket
 from typing import TYPE_CHECKING, Any
 
 from robocomp_dsl.deploy.hosts import codes, known_hosts
-from robocomp_dsl.deploy.hosts.address import DEFAULT_PORT, describe_host, ssh_address
+from robocomp_dsl.deploy.hosts.address import describe_host, ssh_arguments
 from robocomp_dsl.deploy.hosts.errors import HostError, HostRefused, HostUnreachable
 from robocomp_dsl.extras import MissingExtra
 from robocomp_dsl.model.deployment import Host
@@ -48,8 +48,8 @@ class HostKeyCheck(asyncssh.SSHClient):
 
     def lookup(self, host: str, address: str, port: int | None) -> Any:
         """The confirmed keys, for asyncssh; `port` None: that of SSH."""
-        self.id = known_hosts.host_id(host, port or DEFAULT_PORT)
-        self.known = known_hosts.find_keys(host, address, port or DEFAULT_PORT)
+        self.id = known_hosts.host_id(host, port or known_hosts.DEFAULT_PORT)
+        self.known = known_hosts.find_keys(host, address, port or known_hosts.DEFAULT_PORT)
         return known_hosts.asyncssh_keys(self.known)
 
     def validate_host_public_key(self, *server: Any) -> bool:
@@ -64,13 +64,12 @@ class HostKeyCheck(asyncssh.SSHClient):
 
 async def open_connection(host: Host, check: HostKeyCheck) -> asyncssh.SSHClientConnection:
     """Connect and log in. Raises `HostUnreachable` or `HostRefused`."""
-    address = ssh_address(host.address)
-    options: dict[str, Any] = {"port": address.port} if address.port else {}
+    options: dict[str, Any] = {"port": host.ssh_port} if host.ssh_port else {}
     if host.user:
         options["username"] = host.user
     try:
         return await asyncssh.connect(
-            address.name,
+            host.address,
             client_factory=lambda: check,
             known_hosts=check.lookup,
             x509_trusted_certs=None,
@@ -118,12 +117,11 @@ def describe_error(host: Host, check: HostKeyCheck, error: Exception) -> HostErr
 
 
 def _network_error(name: str, host: Host, error: OSError) -> HostUnreachable:
-    address = ssh_address(host.address)
     if isinstance(error, socket.gaierror):
-        text = f"{name}: the name `{address.name}` has no address ({error.strerror})"
+        text = f"{name}: the name `{host.address}` has no address ({error.strerror})"
         return HostUnreachable(text, "correct the name, or write an IP address")
     if isinstance(error, ConnectionRefusedError):
-        port = f"port {address.port}" if address.port else "the port of SSH"
+        port = f"port {host.ssh_port}" if host.ssh_port else "the port of SSH"
         text = f"{name}: the computer answers, but nothing listens at {port}"
         remedy = "start its SSH server (`systemctl start ssh`), or correct the port of the address"
         return HostUnreachable(text, remedy)
@@ -134,17 +132,13 @@ def _network_error(name: str, host: Host, error: OSError) -> HostUnreachable:
 
 
 def _reachability_help(host: Host) -> str:
-    name = ssh_address(host.address).name
-    return f"check that the computer is on, and that `ping {name}` reaches it"
+    return f"check that the computer is on, and that `ping {host.address}` reaches it"
 
 
 def _login_error(name: str, host: Host) -> HostRefused:
-    address = ssh_address(host.address)
-    login = f"{host.user}@{address.name}" if host.user else address.name
-    port = f"-p {address.port} " if address.port else ""
     return HostRefused(
         f"{name}: the login was refused: no key of ~/.ssh or of the SSH agent is accepted",
-        f"correct the `user` of the host, or install your key: `ssh-copy-id {port}{login}`",
+        f"correct the `user` of the host, or install your key: `ssh-copy-id {ssh_arguments(host)}`",
     )
 
 

@@ -62,10 +62,11 @@ class ChildProcess:
         self.exited = asyncio.Event()
         self.code = 0
         self._open: dict[int, tuple[IO[bytes], LineSplitter]] = {}
+        members = [member.name for member in process.members]
         for name, stream in (("stdout", self._popen.stdout), ("stderr", self._popen.stderr)):
             assert stream is not None  # noqa: S101 - both are pipes
             os.set_blocking(stream.fileno(), False)
-            self._open[stream.fileno()] = (stream, LineSplitter(process.name, name))
+            self._open[stream.fileno()] = (stream, LineSplitter(process.name, name, members))
             self._loop.add_reader(stream.fileno(), self._read_chunk, stream.fileno())
         self._handle = os.pidfd_open(self.pid)
         self._loop.add_reader(self._handle, self._on_exit)
