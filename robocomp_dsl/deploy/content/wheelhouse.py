@@ -82,10 +82,12 @@ class WheelStore:
         self._folder.mkdir(parents=True, exist_ok=True)
         uv = LockedDistribution("uv", _uv_version())
         needed = (*environment.distributions, uv)
-        paths = self._find_all(needed, python)
+        tags = python.tags()
+        paths = _cached_wheels(self._folder, tags)
+        paths |= self._repack_all([d for d in needed if d not in paths], tags)
         missing = [d for d in needed if d not in paths]
         problems = self._download(missing, python) if missing else []
-        paths = self._find_all(needed, python)
+        paths |= _cached_wheels(self._folder, tags) if missing else {}
         absent = [d for d in needed if d not in paths]
         if absent:
             named = {canonicalize_name(p.requirement.partition("==")[0]) for p in problems}
@@ -96,24 +98,18 @@ class WheelStore:
         wheels.append(self._wheel(own, self._package_wheel(environment)))
         return Wheelhouse(tuple(wheels), self._wheel(uv, paths[uv])), []
 
-    def _find_all(
-        self, needed: Iterable[LockedDistribution], python: HostPython
+    def _repack_all(
+        self, missing: Iterable[LockedDistribution], tags: frozenset[str]
     ) -> dict[LockedDistribution, Path]:
-        """Wheels in the cache, and those that the installation here gives."""
-        tags = python.tags()
-        cached = _cached_wheels(self._folder, tags)
+        """Wheels of installations here that fit the host; their bytes are those that run here."""
         found = {}
-        for locked in needed:
-            path = cached.get(locked) or self._repack(locked, tags)
-            if path:
+        for locked in missing:
+            installed = find_installed(locked.name)
+            if installed is None or installed.version != locked.version:
+                continue
+            if installed_tags(installed) & tags and (path := repack(installed, self._folder)):
                 found[locked] = path
         return found
-
-    def _repack(self, locked: LockedDistribution, tags: frozenset[str]) -> Path | None:
-        installed = find_installed(locked.name)
-        if installed is None or installed.version != locked.version:
-            return None
-        return repack(installed, self._folder) if installed_tags(installed) & tags else None
 
     def _package_wheel(self, environment: Environment) -> Path:
         version = environment.package_version
