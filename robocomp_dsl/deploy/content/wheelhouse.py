@@ -26,10 +26,10 @@ from robocomp_dsl.deploy.content.distributions import (
     find_installed,
 )
 from robocomp_dsl.deploy.content.hash_cache import HashCache, cache_folder
-from robocomp_dsl.deploy.content.host_python import HostPython
 from robocomp_dsl.deploy.content.lock import RUNTIME_REQUIREMENTS, Environment
 from robocomp_dsl.deploy.content.package_files import write_package_wheel
 from robocomp_dsl.deploy.content.repack import installed_tags, repack
+from robocomp_dsl.deploy.content.wheel_target import WheelTarget
 
 _DOWNLOAD_TIMEOUT_S = 900.0
 _NO_MATCH = re.compile(r"No matching distribution found for (\S+)")
@@ -76,7 +76,7 @@ class WheelStore:
         self._hashes = hashes or HashCache()
 
     def collect(
-        self, environment: Environment, python: HostPython
+        self, environment: Environment, python: WheelTarget
     ) -> tuple[Wheelhouse | None, list[RequirementProblem]]:
         """The wheels of an environment; None with problems. Takes seconds if some are missing."""
         self._folder.mkdir(parents=True, exist_ok=True)
@@ -119,7 +119,7 @@ class WheelStore:
         return write_package_wheel(self._folder, version, RUNTIME_REQUIREMENTS, complete=complete)
 
     def _download(
-        self, missing: Sequence[LockedDistribution], python: HostPython
+        self, missing: Sequence[LockedDistribution], python: WheelTarget
     ) -> list[RequirementProblem]:
         """Get wheels from the index; all at once, and one by one if that fails."""
         reason = self._pip(missing, python)
@@ -130,7 +130,7 @@ class WheelStore:
         reasons = {locked: self._pip([locked], python) for locked in missing}
         return [_no_wheel(locked, python, reason) for locked, reason in reasons.items() if reason]
 
-    def _pip(self, requested: Sequence[LockedDistribution], python: HostPython) -> str:
+    def _pip(self, requested: Sequence[LockedDistribution], python: WheelTarget) -> str:
         """Why `pip download` failed; empty if it did not."""
         pip = _pip_command()
         if pip is None:
@@ -197,7 +197,7 @@ def _run(command: Sequence[str]) -> str:
     return (lines or result.stderr.splitlines() or [f"exit code {result.returncode}"])[-1]
 
 
-def _no_wheel(locked: LockedDistribution, python: HostPython, reason: str) -> RequirementProblem:
+def _no_wheel(locked: LockedDistribution, python: WheelTarget, reason: str) -> RequirementProblem:
     host = f"Python {python.minor} on {python.machine} with {_describe_libc(python)}"
     if reason and not _NO_MATCH.search(reason):
         message = f"the wheel of {locked} for {host} cannot be downloaded: {reason}"
@@ -208,7 +208,7 @@ def _no_wheel(locked: LockedDistribution, python: HostPython, reason: str) -> Re
     return RequirementProblem(str(locked), message, help_text)
 
 
-def _describe_libc(python: HostPython) -> str:
+def _describe_libc(python: WheelTarget) -> str:
     name, version = ("glibc", python.glibc) if python.glibc else ("musl", python.musl)
     return f"{name} {version[0]}.{version[1]}"
 

@@ -78,8 +78,7 @@ class Deployer:
         return all_changes(described, reports)
 
     def _describe(self) -> tuple[dict[str, HostManifest], dict[str, ContentTree]]:
-        files = {i.full_name: i.files for i in self._deployment.instances}
-        trees = describe_trees(self._deployment, self._plan, self._report, files)
+        trees = describe_trees(self._deployment, self._plan, self._report)
         settings = {
             host.name: HostSettings(sys.executable, sys.executable)
             for host in deployment_hosts(self._deployment)
