@@ -12,7 +12,7 @@ from robocomp_dsl.deploy import codes
 from robocomp_dsl.diagnostics import Diagnostic
 from robocomp_dsl.model.connection_index import ConnectionIndex
 from robocomp_dsl.model.deployment import Deployment, Instance
-from robocomp_dsl.model.port_middlewares import port_middlewares
+from robocomp_dsl.model.port_middlewares import IN_PROCESS, port_middlewares
 from robocomp_dsl.runtime.middleware.registry import missing_modules
 
 
@@ -43,5 +43,6 @@ def _first_users(deployment: Deployment) -> dict[str, Instance]:
             for name in port_middlewares(
                 instance, port, index.at(instance), deployment.middleware
             ):
-                users.setdefault(name, instance)
+                if not (instance.process and name == IN_PROCESS):
+                    users.setdefault(name, instance)
     return users
