@@ -6,29 +6,24 @@ all hosts come before the first change.
 
 from __future__ import annotations
 
-import sys
 import time
-from collections.abc import AsyncIterator, Callable, Iterable, Mapping
+from collections.abc import AsyncIterator, Callable, Iterable
 from contextlib import asynccontextmanager
-from dataclasses import dataclass
 from datetime import UTC, datetime
 
-from robocomp_dsl.deploy.content.describe import describe_trees
-from robocomp_dsl.deploy.content.tree import ContentTree
 from robocomp_dsl.deploy.hosts import registry
-from robocomp_dsl.deploy.hosts.copying import copy_private_files, copy_trees
-from robocomp_dsl.deploy.hosts.description import (
-    HostSettings,
-    all_components,
-    deployment_hosts,
-    describe_hosts,
-)
+from robocomp_dsl.deploy.hosts.description import all_components, deployment_hosts
 from robocomp_dsl.deploy.hosts.differences import HostChanges
-from robocomp_dsl.deploy.hosts.errors import HostError
 from robocomp_dsl.deploy.hosts.fleet import Fleet, open_fleet
+from robocomp_dsl.deploy.hosts.fleet_content import FleetContent
+from robocomp_dsl.deploy.hosts.host_checks import (
+    HostLimits,
+    check_facts,
+    describe_failure,
+    host_spans,
+)
 from robocomp_dsl.deploy.hosts.host_engine import show_last_lines
-from robocomp_dsl.deploy.hosts.host_network import HostNetwork, host_networks
-from robocomp_dsl.deploy.hosts.manifest import HostManifest
+from robocomp_dsl.deploy.hosts.placing import candidate_hosts, place_on
 from robocomp_dsl.deploy.hosts.registry import HostedDeployment
 from robocomp_dsl.deploy.hosts.rollout import (
     RolloutResult,
@@ -54,89 +49,98 @@ class Rejected(Exception):
         self.findings = list(findings)
 
 
-@dataclass(frozen=True, slots=True)
-class _Content:
-    """What the hosts should have, by the names of hosts, and of processes for `trees`."""
-
-    manifests: dict[str, HostManifest]
-    trees: dict[str, ContentTree]
-    networks: dict[str, HostNetwork]
-
-
 class Deployer:
     """Deploys one plan; `say` gets lines of text."""
 
-    def __init__(self, deployment: Deployment, plan: Plan, say: Callable[[str], object]) -> None:
+    def __init__(
+        self,
+        deployment: Deployment,
+        plan: Plan,
+        say: Callable[[str], object],
+        limits: HostLimits | None = None,
+    ) -> None:
         self._deployment = deployment
         self._plan = plan
         self._say = say
+        self._limits = limits or HostLimits()
         self._report = Report()
-        self._trees: dict[str, ContentTree] = {}
         self.warnings: list[Diagnostic] = []
 
     async def up(self) -> RolloutResult:
         """Make the hosts as described. Raises `Rejected` and `HostError`."""
         async with self._checked_fleet() as fleet:
-            content = self._describe()
+            content = self._describe(fleet)
+            checks = await content.check(fleet, self._report)
+            raise_failures(fleet)
+            self._reject_errors()
             await lock_hosts(fleet)
 
             async def copy(fleet: Fleet) -> None:
-                await copy_trees(fleet, content.manifests, content.trees, self._say)
-                await copy_private_files(fleet, self._plan.name, content.networks)
+                await content.copy(fleet, checks, self._say)
 
-            result = await roll_out(fleet, content.manifests, copy, self._say)
-            self._register(content.manifests)
+            result = await roll_out(
+                fleet, content.manifests, copy, self._say, is_complete=content.is_complete(checks)
+            )
+            self._register(content)
             for name in result.failed:
                 component = all_components(content.manifests.values())[name]
                 await show_last_lines(fleet, component, self._say)
+            if not result.failed:
+                await content.collect_garbage(fleet)
         return result
 
     async def diff(self) -> list[HostChanges]:
         """What `up` would change. Raises `Rejected` and `HostError`."""
         async with self._checked_fleet() as fleet:
-            content = self._describe()
+            content = self._describe(fleet)
             reports = await fleet.reports()
             raise_failures(fleet)
         return all_changes(content.manifests, reports)
 
-    def _check_description(self) -> None:
-        """Find what is wrong with the description, before any connection is opened."""
-        folder = key_folder(self._deployment.name)
-        check_keys(self._deployment, folder, datetime.now(UTC), self._report)
-        self._trees = describe_trees(self._deployment, self._plan, self._report)
-        self._reject_errors()
-
-    def _describe(self) -> _Content:
+    def _describe(self, fleet: Fleet) -> FleetContent:
         """What the hosts should have."""
-        folder = key_folder(self._deployment.name)
-        networks = host_networks(self._deployment, self._plan, folder)
-        settings = {
-            host.name: HostSettings(
-                sys.executable, sys.executable, network=networks.get(host.name, HostNetwork())
-            )
-            for host in deployment_hosts(self._deployment)
-        }
-        described = describe_hosts(
-            self._deployment, self._plan, self._trees, settings, self._report
-        )
+        content = FleetContent(self._deployment, self._plan, fleet.facts, self._report)
         self._reject_errors()
-        return _Content(described, self._trees, networks)
+        return content
 
     @asynccontextmanager
     async def _checked_fleet(self) -> AsyncIterator[Fleet]:
         """Connections to the hosts, which can run the deployment. Raises `Rejected`."""
-        self._check_description()
-        hosts = deployment_hosts(self._deployment)
-        async with open_fleet([*hosts, *self._earlier_hosts(hosts)], self._plan.name) as fleet:
-            described = {host.name: host for host in hosts}
-            for name, failure in list(fleet.failures.items()):
-                if name in described:
-                    self._report.extend([self._finding(described[name], failure)])
-                else:
-                    del fleet.failures[name]
-                    self._say(f"{name}: what runs there is not stopped: {failure.message}")
-            self._reject_errors()
+        folder = key_folder(self._deployment.name)
+        check_keys(self._deployment, folder, datetime.now(UTC), self._report)
+        hosts = candidate_hosts(self._deployment)
+        earlier = self._earlier_hosts(hosts)
+        async with open_fleet([*hosts, *earlier], self._plan.name, with_facts=True) as fleet:
+            self._check_fleet(fleet, hosts)
+            await self._place(fleet)
             yield fleet
+
+    def _check_fleet(self, fleet: Fleet, hosts: Iterable[Host]) -> None:
+        described = {host.name: host for host in hosts}
+        spans = host_spans(self._deployment)
+        for name, failure in list(fleet.failures.items()):
+            if name in described:
+                span = spans.get(name, self._deployment.span)
+                self._report.extend([describe_failure(failure, span)])
+            else:
+                del fleet.failures[name]
+                self._say(f"{name}: what runs there is not stopped: {failure.message}")
+        for name, facts in fleet.facts.items():
+            if host := described.get(name):
+                span = spans.get(name, self._deployment.span)
+                self._report.extend(check_facts(host, facts, span, self._limits))
+        self._reject_errors()
+
+    async def _place(self, fleet: Fleet) -> None:
+        """Choose the hosts of components that name none."""
+        result = await place_on(fleet, self._deployment, self._plan)
+        if result is None:
+            return
+        self._report.extend(result.findings)
+        self._reject_errors()
+        self._deployment, self._plan = result.deployment, result.plan
+        for line in result.lines:
+            self._say(line)
 
     def _earlier_hosts(self, hosts: Iterable[Host]) -> list[Host]:
         """Hosts on which the deployment ran, and no longer does."""
@@ -144,27 +148,21 @@ class Deployer:
         entry = next((e for e in registry.registered() if e.name == self._plan.name), None)
         return [host for host in entry.hosts if host.name not in known] if entry else []
 
-    def _finding(self, host: Host, failure: HostError) -> Diagnostic:
-        span = host.span or self._deployment.span
-        return Diagnostic(failure.code, span, failure.message, help=failure.help)
-
     def _reject_errors(self) -> None:
         findings = self._report.sorted()
         if self._report.has_errors:
             raise Rejected(findings)
-        self.warnings = [f for f in findings if f.code.severity is Severity.WARNING]
+        self.warnings = [f for f in findings if f.severity is Severity.WARNING]
 
-    def _register(self, described: Mapping[str, HostManifest]) -> None:
-        hosts = deployment_hosts(self._deployment)
-        components = all_components(described.values())
+    def _register(self, content: FleetContent) -> None:
+        components = all_components(content.manifests.values())
         order = {process.name: i for i, process in enumerate(self._plan.processes)}
-        ordered = tuple(sorted(components.values(), key=lambda c: order.get(c.name, -1)))
         entry = HostedDeployment.from_components(
             self._plan.name,
             str(self._plan.path.resolve()),
             self._plan.domain,
-            hosts,
-            ordered,
+            deployment_hosts(self._deployment),
+            tuple(sorted(components.values(), key=lambda c: order.get(c.name, -1))),
             time.time(),
         )
         registry.register(entry)

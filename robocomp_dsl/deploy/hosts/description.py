@@ -29,22 +29,20 @@ from robocomp_dsl.model.deployment import Deployment, Host, Instance
 
 @dataclass(frozen=True, slots=True)
 class HostSettings:
-    """What a host has beside the components. Paths are below `HOME`.
+    """What a host has beside the components.
 
-    `python` runs helpers, `environment` identifies it; `environments` maps processes to the hashes
-    of their own. `interpreter` is the Python of the plan.
+    `interpreter` is the Python of the plan; `runtime` is the hash of the environment that runs
+    helpers and programs, `environments` are those of components by name of the process.
     """
 
     interpreter: str
-    python: str
-    environment: str = ""
+    runtime: str
     environments: Mapping[str, str] = field(default_factory=dict)
     network: HostNetwork = field(default_factory=HostNetwork)
 
-    def python_of(self, process: str, root: str) -> str:
-        """The Python that runs a process."""
-        own = self.environments.get(process)
-        return environment_python(root, own) if own else self.python
+    def environment_of(self, process: str) -> str:
+        """The hash of the environment in which a process runs."""
+        return self.environments.get(process, self.runtime)
 
 
 def environment_python(root: str, environment: str) -> str:
@@ -57,6 +55,21 @@ def deployment_hosts(deployment: Deployment) -> tuple[Host, ...]:
     return tuple(host.replace(name=host_name(host)) for host in used_hosts(deployment))
 
 
+def processes_of(host: str, deployment: Deployment, plan: Plan) -> list[Process]:
+    """The processes that run on a host."""
+    return [process for name, _, process in _pairs(deployment, plan) if name == host]
+
+
+def _pairs(deployment: Deployment, plan: Plan) -> list[tuple[str, Instance, Process]]:
+    """Host, an instance of it, and the process, for each process."""
+    instances = {instance.full_name: instance for instance in deployment.instances}
+    pairs = []
+    for process in plan.processes:
+        instance = instances[first_component(process)]
+        pairs.append((host_name(instance.host), instance, process))
+    return pairs
+
+
 def describe_hosts(
     deployment: Deployment,
     plan: Plan,
@@ -66,11 +79,7 @@ def describe_hosts(
 ) -> dict[str, HostManifest]:
     """The manifest of each host by its name. `settings` are by the name of the host."""
     hosts = deployment_hosts(deployment)
-    instances = {instance.full_name: instance for instance in deployment.instances}
-    pairs = []
-    for process in plan.processes:
-        instance = instances[first_component(process)]
-        pairs.append((host_name(instance.host), instance, process))
+    pairs = _pairs(deployment, plan)
     pairs.sort(key=lambda pair: [host.name for host in hosts].index(pair[0]))
     manifests = {}
     for name, group in groupby(pairs, key=lambda pair: pair[0]):
@@ -100,7 +109,8 @@ def _describe_host(
         if _is_valid(instance, each, plan.name, report)
     ]
     routers, more = _describe_router(name, plan, root, settings)
-    units = host_units(valid, plan.name, root=root, python=settings.python, more=more)
+    python = environment_python(root, settings.runtime)
+    units = host_units(valid, plan.name, root=root, python=python, more=more)
     required = tuple(router.name for router in routers)
     components = [_component(name, process, plan, trees, required) for _, process in members]
     users = tuple(component.name for component in components)
@@ -122,10 +132,10 @@ def _describe_router(
     router = HostedRouter(
         network.router,
         root,
-        settings.python,
+        environment_python(root, settings.runtime),
         f"{root}/{network.settings[network.router]}",
         network.revisions[network.router],
-        settings.environment,
+        settings.runtime,
     )
     unit = names.router_name(plan.name)
     component = HostedComponent(
@@ -141,7 +151,7 @@ def _hosted(
         process,
         tree,
         tree_folder=f"{root}/trees/{tree.hash}",
-        python=settings.python_of(process.name, root),
+        python=environment_python(root, settings.environment_of(process.name)),
         interpreter=settings.interpreter,
     )
     network = settings.network.settings.get(process.name, "")
@@ -149,11 +159,11 @@ def _hosted(
         there,
         host,
         root,
-        settings.python,
+        environment_python(root, settings.runtime),
         f"{root}/{network}" if network else "",
         settings.network.revisions.get(process.name, ""),
         tree.hash,
-        settings.environments.get(process.name, ""),
+        settings.environment_of(process.name),
     )
 
 
