@@ -6,6 +6,7 @@ what each host lacks, and the copy.
 
 from __future__ import annotations
 
+import asyncio
 import sys
 from collections.abc import Callable, Mapping
 
@@ -92,12 +93,15 @@ class FleetContent:
     async def check(self, fleet: Fleet, report: Report) -> dict[str, ContentCheck]:
         """What each host lacks; problems are in `report`. A host that fails is in `fleet`."""
 
+        one_at_a_time = asyncio.Lock()
+
         async def check(agent: HostAgent) -> ContentCheck | None:
             content = self._contents.get(agent.host.name)
             if content is None:
                 return None
             span = self._spans.get(agent.host.name, self._span)
-            return await check_content(agent.connection, content, span, report)
+            async with one_at_a_time:  # hosts need the same wheels, which are made once
+                return await check_content(agent.connection, content, span, report)
 
         return {host: found for host, found in (await fleet.each(check)).items() if found}
 
