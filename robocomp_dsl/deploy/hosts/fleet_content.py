@@ -92,7 +92,6 @@ class FleetContent:
 
     async def check(self, fleet: Fleet, report: Report) -> dict[str, ContentCheck]:
         """What each host lacks; problems are in `report`. A host that fails is in `fleet`."""
-
         one_at_a_time = asyncio.Lock()
 
         async def check(agent: HostAgent) -> ContentCheck | None:
