@@ -12,7 +12,7 @@ from itertools import groupby
 
 from robocomp_dsl.deploy.content.relocate import relocate
 from robocomp_dsl.deploy.content.tree import ContentTree
-from robocomp_dsl.deploy.hosts import engine_codes
+from robocomp_dsl.deploy.hosts import codes_engine
 from robocomp_dsl.deploy.hosts.host_network import HostNetwork, first_component
 from robocomp_dsl.deploy.hosts.manifest import HostedComponent, HostManifest
 from robocomp_dsl.deploy.hosts.registry import HostedDeployment
@@ -173,7 +173,7 @@ def _is_valid(instance: Instance, hosted: HostedProcess, deployment: str, report
         service_unit(hosted, deployment, frozenset())
     except UnitValueError as error:
         report.add(
-            engine_codes.UNIT_VALUE,
+            codes_engine.UNIT_VALUE,
             instance.span,
             f"`{instance.name}`: {error}",
             help="change the value, or keep it in a configuration file",
