@@ -34,12 +34,14 @@ class HostSettings:
 
     `interpreter` is the Python of the plan; `runtime` is the hash of the environment that runs
     helpers and programs, `environments` are those of components by name of the process.
+    `controllers` are those of cgroups that the manager of the host may set.
     """
 
     interpreter: str
     runtime: str
     environments: Mapping[str, str] = field(default_factory=dict)
     network: HostNetwork = field(default_factory=HostNetwork)
+    controllers: tuple[str, ...] = ()
 
     def environment_of(self, process: str) -> str:
         """The hash of the environment in which a process runs."""
@@ -111,7 +113,14 @@ def _describe_host(
     ]
     routers, more = _describe_router(name, plan, root, settings)
     python = environment_python(root, settings.runtime)
-    units = host_units(valid, plan.name, root=root, python=python, more=more)
+    units = host_units(
+        valid,
+        plan.name,
+        root=root,
+        python=python,
+        more=more,
+        controllers=settings.controllers,
+    )
     required = tuple(router.name for router in routers)
     components = [_component(name, process, plan, trees, required) for _, process in members]
     users = tuple(component.name for component in components)
