@@ -1,9 +1,9 @@
 """Watches the limits of units where the manager of the user cannot: `python -m … LOGS SPEC...`.
 
 cgroup controllers are not delegated to users on every system. In: the folder of logs; for each unit
-cgroup controllers are not delegated to users on every system. In: the folder of logs; per unit
-a limit for some seconds is killed, which its restart policy takes for a failure; the reason is in
-its log.
+`UNIT NAME MEMORY CPU`: its component, bytes, share of a core; 0: no limit. Out: a unit that stays
+above a limit for some seconds is killed, which its restart policy takes for a failure; its log has
+the reason.
 """
 
 from __future__ import annotations

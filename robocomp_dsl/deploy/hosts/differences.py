@@ -135,20 +135,19 @@ def _reason(old: str, new: str) -> str:
         for section, key in before.keys() | after.keys()
         if section == "Service"
         and key not in hidden
-        and not key.startswith("ROBOCOMP_UNIT")
+        and key not in _NOT_SHOWN
         and before.get((section, key)) != after.get((section, key))
     }
     texts = [*identity, *sorted(_NAMES.get(key, key) for key in keys)]
     return f"changed: {', '.join(texts)}" if texts else "runs an earlier version"
 
 
+_NOT_SHOWN = {"ROBOCOMP_UNIT", "WatchdogSignal", "MemorySwapMax", "CPUSchedulingPolicy"}
 _NAMES = {
     "ExecStart": "command line",
     "Type": "readiness",
     "ExecStartPost": "readiness",
-    "TimeoutStartSec": "time to be ready",
     "WatchdogSec": "watchdog",
-    "Restart": "restart policy",
     "MemoryMax": "memory limit",
     "CPUQuota": "CPU limit",
     "CPUAffinity": "cores",
@@ -200,5 +199,6 @@ def format_changes(all_changes: Iterable[HostChanges]) -> list[str]:
                 lines.append(f"    … and {more} more")
         units = [*changes.written, *changes.removed]
         if units and not changes.components:
-            lines.append(f"{changes.host}: {len(units)} unit files differ, nothing restarts")
+            files = "unit file differs" if len(units) == 1 else "unit files differ"
+            lines.append(f"{changes.host}: {len(units)} {files}, nothing restarts")
     return lines

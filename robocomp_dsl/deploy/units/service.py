@@ -29,6 +29,13 @@ _MARK = '+{"time": %s.%N, "level": "INFO", "message": "'
 END_TEXT = "ended: ${EXIT_CODE} ${EXIT_STATUS} (${SERVICE_RESULT})"
 """systemd.exec(5) sets the variables."""
 READINESS = "robocomp_dsl.host_tools.wait_until_ready"
+_WITHOUT_RESTART = frozenset(
+    {
+        "ExecStartPost", "ExecStartPre", "ExecStopPost", "KillMode", "Restart", "RestartSec",
+        "RestartForceExitStatus", "SuccessExitStatus", "TimeoutStartSec", "TimeoutStopSec",
+    }
+)  # fmt: skip
+"""Settings that systemd takes over while the process runs, as those of the order."""
 _WATCHDOG_VARIABLE = "WATCHDOG_USEC"
 _CLEAN_SIGNALS = "SIGHUP SIGINT SIGTERM SIGPIPE"
 """Ends that are a success for systemd, and a failure for rcdeploy unless it stops the process."""
@@ -62,8 +69,8 @@ def service_unit(hosted: HostedProcess, deployment: str, on_host: frozenset[str]
 
 def join_sections(head: list[str], service: list[str], identity: list[str]) -> str:
     """The text of a service, with its revision in the environment of the process."""
-    # The process itself does not depend on the order of the start, nor on how often it may start.
-    revision = hashlib.sha256("\n".join([*service, *identity]).encode()).hexdigest()[:16]
+    lasting = [line for line in service if line.partition("=")[0] not in _WITHOUT_RESTART]
+    revision = hashlib.sha256("\n".join([*lasting, *identity]).encode()).hexdigest()[:16]
     service = [*service, f"Environment={REVISION_VARIABLE}={revision}"]
     return "\n".join([*head, "", *service, "", *identity]) + "\n"
 

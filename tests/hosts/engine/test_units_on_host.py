@@ -75,7 +75,7 @@ def test_service_unit_is_active_when_its_port_answers(robot: SimulatedHost) -> N
 
 
 def test_service_unit_is_killed_above_its_memory_limit(robot: SimulatedHost) -> None:
-    script = "import time; print('big', flush=True); data = bytes(200_000_000); time.sleep(600)"
+    script = "import time; print('big', flush=True); data = b'x' * 200_000_000; time.sleep(600)"
     limits = ResourceLimits(memory_bytes=50_000_000)
     start(robot, "big", ["python3", "-c", script], readiness=Readiness(delay_s=0.1), limits=limits)
     unit = names.service_name("unit", "big")
