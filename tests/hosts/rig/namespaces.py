@@ -78,12 +78,10 @@ class TestNetwork:
         self.restore(link, pid)
         netem = ("root", "netem", "loss", f"{loss:.3%}", "delay", f"{delay_s * 1e3:.3f}ms")
         inside = ("nsenter", f"--net=/proc/{pid}/ns/net")
-        if (
-            subprocess.run(
-                ["tc", "qdisc", "add", "dev", link, *netem], check=False, stderr=subprocess.DEVNULL
-            ).returncode
-            == 0
-        ):
+        kernel = subprocess.run(
+            ["tc", "qdisc", "add", "dev", link, *netem], check=False, stderr=subprocess.DEVNULL
+        )
+        if kernel.returncode == 0:
             subprocess.run([*inside, "tc", "qdisc", "add", "dev", "eth0", *netem], check=True)
             return
         outer, inner = f"{link}o", f"{link}i"
