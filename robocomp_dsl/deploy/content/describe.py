@@ -24,6 +24,7 @@ from robocomp_dsl.deploy.content.tree import ContentTree, TreeFile, make_tree
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.deploy.preflight import search_config, short_path
 from robocomp_dsl.diagnostics import Code, Diagnostic, Report
+from robocomp_dsl.model.connection_index import ConnectionIndex
 from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.runtime.parameters import ConfigError
 
@@ -60,7 +61,8 @@ class TreeDescriber:
 
     def __init__(self, deployment: Deployment, hashes: HashCache) -> None:
         self.hashes = hashes
-        self._deployment = deployment
+        self._path = deployment.path
+        self._connections = ConnectionIndex(deployment.connections)
         self._scans: dict[str, FolderScan] = {}
         self._hashed: dict[str, str | ScanProblem] = {}
 
@@ -73,8 +75,8 @@ class TreeDescriber:
         named = named_files(
             instance,
             process,
-            self._deployment.connections,
-            self._deployment.path,
+            self._connections.at(instance),
+            self._path,
             extra,
             process.config or searched,
         )
