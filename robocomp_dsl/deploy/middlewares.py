@@ -40,9 +40,7 @@ def _first_users(deployment: Deployment) -> dict[str, Instance]:
     index = ConnectionIndex(deployment.connections)
     for instance in deployment.instances:
         for port in instance.component.ports if instance.host.is_local else ():
-            for name in port_middlewares(
-                instance, port, index.at(instance), deployment.middleware
-            ):
+            for name in port_middlewares(instance, port, index.at(instance), deployment.middleware):
                 if not (instance.process and name == IN_PROCESS):
                     users.setdefault(name, instance)
     return users

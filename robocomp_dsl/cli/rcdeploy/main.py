@@ -36,6 +36,7 @@ TABLE = {
     "qos": ("rcdeploy.inspect.qos", "Change the quality of service of a connection."),
     "param": ("rcdeploy.param", "Read and change parameters of running components."),
     "stop": ("rcdeploy.stop", "Stop a running deployment, or components of it."),
+    "hosts": ("rcdeploy.hosts", "Check the hosts of a deployment, and confirm their SSH keys."),
     "start": ("rcdeploy.start", "Start components of a running deployment."),
     "restart": ("rcdeploy.restart", "Restart components of a running deployment."),
     "completion": ("rcdeploy.inspect.completion_script", "Print the completion script of a shell."),

@@ -67,6 +67,14 @@ class CopyResult:
     trees: int = 0
     seconds: float = 0.0
 
+    def __add__(self, other: CopyResult) -> CopyResult:
+        return CopyResult(
+            self.files + other.files,
+            self.bytes + other.bytes,
+            self.trees + other.trees,
+            self.seconds + other.seconds,
+        )
+
 
 def blobs_of(trees: Iterable[ContentTree]) -> dict[str, Blob]:
     """The contents of trees, by name."""

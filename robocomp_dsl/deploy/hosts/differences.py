@@ -108,7 +108,12 @@ def _change(
 def _reason(old: str, new: str) -> str:
     """What differs between two texts of a unit."""
     before, after = _settings(old), _settings(new)
-    parts = {"Tree": "files", "Environment": "Python packages", "Certificate": "certificate"}
+    parts = {
+        "Tree": "files",
+        "Environment": "Python packages",
+        "Certificate": "network settings or certificate",
+        "Settings": "network settings or access rules",
+    }
     identity = [
         text
         for key, text in parts.items()

@@ -69,12 +69,20 @@ class HostEngine:
 
     def components(self) -> list[str]:
         """See `Engine`."""
-        return [name for name, _ in self.deployment.places]
+        members = dict(self.deployment.members)
+        return [
+            each for name, _ in self.deployment.places for each in (name, *members.get(name, ()))
+        ]
 
     def answering_components(self) -> list[str]:
         """See `Engine`."""
-        programs = set(self.deployment.programs)
-        return [name for name in self.components() if name not in programs]
+        members = dict(self.deployment.members)
+        return [
+            each
+            for name, _ in self.deployment.places
+            if name not in self.deployment.programs
+            for each in members.get(name, (name,))
+        ]
 
     def status(self) -> DeploymentStatus:
         """See `Engine`."""
@@ -104,7 +112,7 @@ class HostEngine:
             manifests, states = await self._deployed(fleet)
             components = {c.name: c for m in manifests.values() for c in m.components}
             try:
-                selected = select_names(names, list(components.values())) if names else None
+                selected = select_names(names, [*components.values()]) if names else None
             except NoSuchComponent as error:
                 raise EngineError(str(error)) from None
             chosen = list(components) if selected is None else selected
@@ -280,6 +288,7 @@ def component_status(component: HostedComponent, state: UnitState) -> ProcessSta
         memory=state.memory,
         note=note or (state.text if component.is_program and state.pid else ""),
         life=life if state.pid else "",
+        members=tuple((name, life) for name in component.member_names) if state.pid else (),
         host=component.host,
     )
 

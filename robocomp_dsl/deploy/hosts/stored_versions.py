@@ -38,7 +38,7 @@ async def check_trees(fleet: Fleet, described: Mapping[str, HostManifest]) -> No
         manifest = described.get(agent.host.name)
         if manifest is None:
             return
-        for component in manifest.components:
+        for component in (c for c in manifest.components if c.tree):
             tree = f"{names.root_folder(manifest.deployment)}/trees/{component.tree}"
             if (await agent.connection.run(["test", "-d", tree])).code:
                 raise HostError(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shlex
 import signal
 import subprocess
@@ -226,6 +227,34 @@ class SimulatedHost:
     def restore_link(self) -> None:
         """End `cut_link`."""
         self._network.set_forwarding(self._link, on=True)
+
+    # ----------------------------------------------------------------- clock
+
+    def set_clock_offset(self, seconds: float) -> None:
+        """Let all that is started from now on, by SSH, `run` or the manager, see another time."""
+        library = next(Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))
+        (self._files / "clock").write_text(f"{seconds:+f}\n", "ascii")
+        self.environment |= {
+            "LD_PRELOAD": str(library),
+            "FAKETIME_TIMESTAMP_FILE": "/run/host/clock",
+            "FAKETIME_NO_CACHE": "1",
+            "DONT_FAKE_MONOTONIC": "1",
+            "NO_FAKE_STAT": "1",
+        }
+        words = [f"{name}={value}" for name, value in self.environment.items()]
+        self.write_sshd_config([f"SetEnv {' '.join(words)}"])
+        if self.settings.manager:
+            self.systemctl("set-environment", *words)
+
+    # ------------------------------------------------------------------ disk
+
+    def limit_disk(self, free_bytes: int) -> None:
+        """Leave so much space in the home, which needs `disk_bytes` at the start."""
+        assert self.settings.disk_bytes, "start the host with disk_bytes"
+        status = os.statvfs(self.home)
+        size = (status.f_blocks - status.f_bfree) * status.f_frsize + free_bytes
+        target = str(self.home_path)
+        self.run(["mount", "-o", f"remount,size={size}", target], root=True)
 
     # ---------------------------------------------------------------- server
 
