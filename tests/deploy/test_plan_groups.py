@@ -107,7 +107,7 @@ def test_plan_of_group_in_one_process_makes_its_connections_plain_calls(tmp_path
     """
     found = planned(tmp_path, text)
     body, inside, outside = found.components
-    served = ["LaserPub=zenoh,inproc", "Laser=zenoh,inproc"]
+    served = ["LaserPub=inproc,zenoh", "Laser=inproc,zenoh"]
     assert sorted(option(body, "--middleware")) == sorted(served)
     assert option(inside, "--middleware") == ["Laser=inproc", "LaserPub=inproc"]
     assert option(outside, "--middleware") == []

@@ -74,7 +74,7 @@ class UnitState:
         match self.active, self.sub:
             case "active", "exited":
                 return status.EXITED
-            case ("active" | "reloading"), _:
+            case (("active" | "reloading"), _):
                 return status.READY
             case "activating", "auto-restart":
                 return status.BACKOFF

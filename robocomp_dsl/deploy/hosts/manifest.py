@@ -102,8 +102,13 @@ def _component(fields: Mapping[str, Any]) -> HostedComponent:
 
 def host_as_dict(host: Host) -> dict[str, Any]:
     """What is needed to connect to a host."""
-    return {"name": host.name, "address": host.address, "user": host.user,
-        "port": host.port, "ssh_port": host.ssh_port}
+    return {
+        "name": host.name,
+        "address": host.address,
+        "user": host.user,
+        "port": host.port,
+        "ssh_port": host.ssh_port,
+    }
 
 
 def host_from_dict(fields: Mapping[str, Any]) -> Host:
