@@ -14,7 +14,21 @@ from robocomp_dsl.deploy.supervisor_engine import SupervisorEngine
 
 def running_deployments() -> list[Engine]:
     """The engines of all running deployments, by name. Raises `EngineError`."""
-    return [*_supervised()]
+    supervised = _supervised()
+    names = {engine.name for engine in supervised}
+    return [*supervised, *(e for e in _hosted() if e.name not in names)]
+
+
+def _hosted() -> list[Engine]:
+    """The deployments over hosts that were not stopped."""
+    from robocomp_dsl.deploy.hosts import registry  # noqa: PLC0415 - seldom any
+
+    entries = [entry for entry in registry.registered() if not entry.is_stopped]
+    if not entries:
+        return []
+    from robocomp_dsl.deploy.hosts.host_engine import HostEngine  # noqa: PLC0415 - for them
+
+    return [HostEngine(entry) for entry in entries]
 
 
 def _supervised() -> list[SupervisorEngine]:

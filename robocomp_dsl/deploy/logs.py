@@ -29,7 +29,8 @@ _CONTROL_CHARS = re.compile(r"\x1b(?!\[[0-9;]*m)|[\x00-\x08\x0b-\x1a\x1c-\x1f\x7
 class LogRecord:
     """One line of output. `time` in s since 1970; `level` is empty for lines of user code.
 
-    `sequence` counts the records of one run from 1; 0 before it is known.
+    `sequence` counts the records of one run from 1; 0 before it is known. `host` is the name of the
+    machine in the description; empty for a deployment on one machine.
     """
 
     time: float
@@ -38,6 +39,12 @@ class LogRecord:
     text: str
     stream: str = "log"
     sequence: int = 0
+    host: str = ""
+
+    @property
+    def label(self) -> str:
+        """The host, if there are several, and the component."""
+        return f"{self.host} {self.component}" if self.host else self.component
 
     def to_json(self) -> str:
         """The record as one line of JSON."""
@@ -113,11 +120,20 @@ def _structured_record(component: str, fields: Mapping[str, Any], now: float) ->
     return LogRecord(logged if plausible else now, component, str(fields["level"]).upper(), text)
 
 
+def parse_line(component: str, text: str, time: float, stream: str) -> LogRecord:
+    """A stored line: a JSON line with its own time, or any text, at `time` [s since 1970]."""
+    fields = _parse_object(text) if text.startswith("{") else {}
+    if "message" not in fields or "level" not in fields:
+        return LogRecord(time, component, "", text, stream)
+    logged = fields.get("time")
+    return _structured_record(component, fields, logged if isinstance(logged, float) else time)
+
+
 def format_record(record: LogRecord, width: int, *, colours: bool) -> str:
     """`record` as text: time, name, level and message, further lines below it."""
     stamp = time.strftime("%H:%M:%S", time.localtime(record.time))
     stamp += f".{int(record.time % 1 * 1000):03d}"
-    name = record.component.ljust(width)
+    name = record.label.ljust(width)
     level = "" if record.level in ("", "INFO") else f"{record.level.lower()}: "
     head, *more = _CONTROL_CHARS.sub("\N{REPLACEMENT CHARACTER}", record.text).split("\n")
     if colours:

@@ -45,3 +45,8 @@ class Process:
     devices: tuple[str, ...] = ()
     is_program: bool = False
     members: tuple[Process, ...] = ()
+
+    @property
+    def member_names(self) -> tuple[str, ...]:
+        """The full names of `members`."""
+        return tuple(member.name for member in self.members)

@@ -21,6 +21,7 @@ HUNG = "hung"
 _COLOURS = {READY: "32", FAILED: "1;31", HUNG: "1;31", BACKOFF: "33", UNKNOWN: "33", STARTING: "36"}
 _COLUMNS = (
     "NAME",
+    "HOST",
     "STATE",
     "LIFE",
     "MACHINE",
@@ -32,7 +33,7 @@ _COLUMNS = (
     "OVERRUNS",
     "",
 )
-_OPTIONAL_COLUMNS = ("MACHINE", "OVERRUNS")
+_OPTIONAL_COLUMNS = ("HOST", "MACHINE", "OVERRUNS")
 """Columns that are left out if all their cells are empty."""
 _EMPTY = "-"
 
@@ -44,8 +45,9 @@ class ProcessStatus:
     `up_s`: seconds since its start; `cpu`: 1.0 is one core; `memory` in bytes. `life` is the
     lifecycle state; `machine` are the active states of the state machine, outer ones first, if they
     were queried. `note` is the reason for the state. `overruns` counts cycles that exceeded the
-    period; `hang` is the latest hang, also of an earlier process of the component. `members` are
-    the components of a group in one process, each with its lifecycle state.
+    period; `hang` is the latest hang, also of an earlier process of the component. `host` is empty
+    if the supervisor of this machine runs it. `members` are the components of a group in one
+    process, each with its lifecycle state.
     """
 
     name: str
@@ -60,6 +62,7 @@ class ProcessStatus:
     machine: tuple[str, ...] = ()
     overruns: int = 0
     hang: HangReport | None = None
+    host: str = ""
     members: tuple[tuple[str, str], ...] = ()
 
     @staticmethod
@@ -128,7 +131,8 @@ def _has_values(cells: Sequence[tuple[str, ...]], column: int) -> bool:
 
 
 def _cells(row: ProcessStatus) -> tuple[str, ...]:
-    states = (row.name, row.state, row.life or _EMPTY, ", ".join(row.machine) or _EMPTY)
+    machine = ", ".join(row.machine) or _EMPTY
+    states = (row.name, row.host or _EMPTY, row.state, row.life or _EMPTY, machine)
     if not row.state:  # a component of a group
         return (*states, *[""] * (len(_COLUMNS) - len(states)))
     if not row.pid:

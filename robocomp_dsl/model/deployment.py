@@ -108,6 +108,11 @@ class Host(Record):
     ssh_port: int = 0
 
     @property
+    def machine(self) -> str:
+        """A name of its machine: "" for all hosts on this machine."""
+        return "" if self.is_local else self.name
+
+    @property
     def is_local(self) -> bool:
         """Whether the host is the machine on which the deployment is started.
 

@@ -31,7 +31,7 @@ from robocomp_dsl.check.workspace.referenced_files import find_referenced_file
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.model.component import Component
-from robocomp_dsl.model.deployment import Host, Instance
+from robocomp_dsl.model.deployment import UNPLACED, Instance
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Name, Text
@@ -111,11 +111,14 @@ def report_shared_ports(
     trees: Sequence[ast.Instance], places: Mapping[str, InstancePlace], report: Report
 ) -> None:
     """Report two instances that would listen on the same port of the same machine."""
-    first: dict[tuple[Host, float], ast.Instance] = {}
+    first: dict[tuple[str, float], ast.Instance] = {}
     for tree in trees:
         if tree.port is None or not tree.port.value:
             continue
-        key = (places.get(tree.name.text, DEFAULT_PLACE).host, tree.port.value)
+        host = places.get(tree.name.text, DEFAULT_PLACE).host
+        if host is UNPLACED:
+            continue
+        key = (host.machine, tree.port.value)
         earlier = first.setdefault(key, tree)
         if earlier is not tree and earlier.port is not None:
             report.add(

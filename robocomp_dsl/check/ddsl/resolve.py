@@ -12,6 +12,7 @@ from robocomp_dsl.check.cdsl.middlewares import find_middleware
 from robocomp_dsl.check.codes import deployment as codes
 from robocomp_dsl.check.ddsl.carriers import check_carriers, check_deployment_middleware
 from robocomp_dsl.check.ddsl.check_definitions import check_definitions, located_at_instances
+from robocomp_dsl.check.ddsl.clock_hosts import check_clock_hosts
 from robocomp_dsl.check.ddsl.clocks import resolve_clock
 from robocomp_dsl.check.ddsl.components import CheckComponent
 from robocomp_dsl.check.ddsl.connections import ExplicitConnections, explicit_connections
@@ -137,7 +138,9 @@ class _Resolver:
                 middleware, tree.middleware.span, known_middlewares, report
             )
         valid = [c for c in all_connections if not _follows_error(c, written.faulty_instances)]
-        check_carriers(valid, middleware, known_middlewares, report)
+        check_carriers(valid, middleware, hosts, known_middlewares, report)
+        clock = resolve_clock(tree.clock, order, complete=complete, report=report)
+        check_clock_hosts(tree.clock, clock, order, hosts, report)
         return Deployment(
             name=tree.name.text,
             path=path,
@@ -148,7 +151,7 @@ class _Resolver:
             hosts=tuple(hosts.values()),
             doc=tree.doc,
             groups=groups,
-            clock=resolve_clock(tree.clock, order, complete=complete, report=report),
+            clock=clock,
             externals=tuple(externals.values()),
             external_connections=resolve_external_connections(
                 tree.external_connections, known_middlewares, report

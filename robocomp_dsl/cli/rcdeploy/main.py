@@ -15,6 +15,7 @@ from robocomp_dsl.cli.program import LazyGroup, run
 
 TABLE = {
     "up": ("rcdeploy.up", "Run a deployment in the foreground; Ctrl-C stops it in order."),
+    "keys": ("rcdeploy.keys", "Make the certificates of a deployment over hosts."),
     "plan": ("rcdeploy.plan", "Show which processes would be started, and how."),
     "check": ("rcdeploy.check", "Check a deployment; start nothing."),
     "status": ("rcdeploy.status", "Show the components of running deployments."),

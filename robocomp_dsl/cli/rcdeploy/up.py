@@ -91,6 +91,9 @@ MEGABYTE = 1_000_000
     metavar="DAYS",
     help="Older logs are deleted.",
 )
+@click.option(
+    "-f", "--follow", is_flag=True, help="On several hosts: show the logs until Ctrl-C afterwards."
+)
 def command(
     app: Path,
     folders: tuple[Path, ...],
@@ -98,9 +101,13 @@ def command(
     name: str | None,
     domain: str | None,
     show_traceback: bool,
+    follow: bool,
     **how: Any,
 ) -> None:
     """Check the deployment, start its components in order, and supervise them.
+
+    With components on other hosts: check all hosts, copy what they lack, start what differs, wait
+    until all are ready, and return; systemd supervises them.
 
     The exit code is 0 if it was stopped on request or all components exited successfully, 1 for
     findings or a failed component, 141 if the reader of its output has gone.
@@ -114,6 +121,11 @@ def command(
         raise CliError(
             EXIT_FINDINGS, f"{app}: nothing was started ({options.summary(checked.findings)})"
         )
+    if checked.hosted:
+        from robocomp_dsl.cli.rcdeploy import up_hosts  # noqa: PLC0415 - loads asyncssh
+
+        up_hosts.command(checked, follow=follow)
+        return
     if reason := unsupported_reason():
         raise CliError(EXIT_FINDINGS, reason)
     try:

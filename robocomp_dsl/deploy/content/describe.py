@@ -1,7 +1,7 @@
 """Describes the trees of a deployment: which files each component needs on its host.
 
-In: a deployment and its plan. Out: a `Tree` per process, and findings at the instances. Reads
-files, writes only the cache of hashes. The result is deterministic.
+In: a deployment and its plan. Out: a `ContentTree` per process, and findings at the instances.
+Reads files, writes only the cache of hashes. The result is deterministic.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from robocomp_dsl.deploy.content.folder_scan import (
 )
 from robocomp_dsl.deploy.content.hash_cache import HashCache
 from robocomp_dsl.deploy.content.named_files import NamedFile, named_files, place_of
-from robocomp_dsl.deploy.content.tree import Tree, TreeFile, make_tree
+from robocomp_dsl.deploy.content.tree import ContentTree, TreeFile, make_tree
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.deploy.preflight import search_config, short_path
 from robocomp_dsl.diagnostics import Code, Diagnostic, Report
@@ -41,7 +41,7 @@ def describe_trees(
     report: Report,
     files: Mapping[str, Sequence[Path]] | None = None,
     hashes: HashCache | None = None,
-) -> dict[str, Tree]:
+) -> dict[str, ContentTree]:
     """The tree of each process, by its full name.
 
     `files` are further files and folders by full name, relative paths to the component's folder.
@@ -66,7 +66,7 @@ class TreeDescriber:
 
     def describe(
         self, instance: Instance, process: Process, extra: Sequence[Path], report: Report
-    ) -> Tree:
+    ) -> ContentTree:
         """The tree of one process; files that cannot be copied are findings."""
         folder = process.cwd.resolve()
         searched = None if process.config else _search_config(instance, process)
@@ -179,7 +179,7 @@ def _report_problems(instance: Instance, problems: list[ScanProblem], report: Re
         _add(report, instance, codes.FILE, message, "")
 
 
-def _report_size(instance: Instance, tree: Tree, report: Report) -> None:
+def _report_size(instance: Instance, tree: ContentTree, report: Report) -> None:
     size = f"{tree.size / 1e6:.0f} MB in {len(tree.files)} files"
     if tree.size > MAX_TREE_BYTES:
         message = f"`{instance.name}`: its files are too large for a copy: {size}"

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from robocomp_dsl.deploy.content.tree import Tree
+from robocomp_dsl.deploy.content.tree import ContentTree
 from robocomp_dsl.deploy.plan import Process
 
 _CONTEXT_FLAGS = ("--context", "--config-name")
@@ -22,7 +22,12 @@ _BEGINS = r"(?<![\w./~-])"
 
 
 def relocate(
-    process: Process, tree: Tree, *, tree_folder: str, python: str = "", interpreter: str = ""
+    process: Process,
+    tree: ContentTree,
+    *,
+    tree_folder: str,
+    python: str = "",
+    interpreter: str = "",
 ) -> Process:
     """The process on a host.
 

@@ -1,6 +1,6 @@
 """The files of one component as they are on its host.
 
-In: paths inside the tree and their content hashes. Out: `Tree`, whose hash depends on paths,
+In: paths inside the tree and their content hashes. Out: `ContentTree`, whose hash depends on paths,
 contents and permission to execute only. Pure.
 """
 
@@ -33,7 +33,7 @@ class TreeFile:
 
 
 @dataclass(frozen=True)
-class Tree:
+class ContentTree:
     """The files of one component, sorted by path.
 
     `origin` is the folder of this machine that the tree mirrors; `working_folder` is relative to
@@ -69,10 +69,10 @@ def make_tree(
     folders: Iterable[str] = (),
     named: Iterable[tuple[str, str]] = (),
     config: str = "",
-) -> Tree:
+) -> ContentTree:
     """A tree with sorted files, each path once."""
     by_path = {file.path: file for file in files}
-    return Tree(
+    return ContentTree(
         origin,
         working_folder,
         tuple(by_path[path] for path in sorted(by_path)),

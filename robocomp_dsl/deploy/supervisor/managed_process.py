@@ -18,6 +18,7 @@ from robocomp_dsl.deploy.supervisor.child import ChildProcess, describe_exit
 from robocomp_dsl.deploy.supervisor.hang_watch import HangWatch
 from robocomp_dsl.deploy.supervisor.load_errors import LoadErrors
 from robocomp_dsl.deploy.supervisor.member_states import MemberStates
+from robocomp_dsl.deploy.supervisor.process_start import process_environment
 from robocomp_dsl.deploy.supervisor.restart import RestartDecision, decide_restart
 from robocomp_dsl.deploy.supervisor.supervisor_context import SupervisorContext
 from robocomp_dsl.deploy.supervisor.waiting import wait_any
@@ -61,6 +62,7 @@ class ManagedProcess:
         self._killed = False
         self._failure = ""
         self._starts_without_ready = 0
+        self._early_states: list[tuple[int, str]] = []
         self._hung_child: ChildProcess | None = None
         self._load_errors = LoadErrors()
         self._end_hung: asyncio.Task[None] | None = None
@@ -97,6 +99,8 @@ class ManagedProcess:
     def on_state_changed(self, pid: int, state: str) -> None:
         """Handle a state change that the monitor reports; events of earlier runs are ignored."""
         child = self.child
+        if child is None and self._state == status.STARTING:
+            self._early_states.append((pid, state))
         if child is None or self._state == status.STOPPING or not child.owns(pid):
             return
         self._lifecycle_state = state
@@ -203,19 +207,26 @@ class ManagedProcess:
             self._load_errors.observe(record)
             self.context.emit(record)
 
+        self._lifecycle_state = ""
+        self._early_states.clear()
+        self._transition_to(status.STARTING, "")
+        variables = process_environment(self.process, self.context.environment, self.context.token)
         try:
-            self.child = ChildProcess(
-                self.process, self.context.token, emit, self.context.environment, hang_watch
+            started = await self.context.starter.start(
+                self.process, variables, hang_watch.write_end
             )
         except OSError as error:
             hang_watch.close()
             self._note = f"cannot be started: {error.strerror or error}"
             return EXIT_NOT_FOUND
         self._started = True
-        self._lifecycle_state = ""
-        self._transition_to(status.STARTING, "")
-        child = self.child
+        child = self.child = ChildProcess(self.process, started, emit, hang_watch)
+        self.context.changed()
         self.context.on_started(self, child)
+        for pid, state in self._early_states:
+            self.on_state_changed(pid, state)
+        if self.stop_requested.is_set():
+            await self.terminate(self.context.grace_s)
         await wait_any(child.exited, self.ready, timeout=self.process.start_timeout_s)
         if self.ready.is_set() and not child.has_exited:
             self.was_ready, self._starts_without_ready = True, 0

@@ -24,6 +24,7 @@ from robocomp_dsl.deploy.supervisor.external_connections import ExternalConnecti
 from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
 from robocomp_dsl.deploy.supervisor.managed_process import KILL_TIMEOUT_S, ManagedProcess
 from robocomp_dsl.deploy.supervisor.notify import SOCKET_VARIABLE, NotifySocket
+from robocomp_dsl.deploy.supervisor.process_start import ExecutingStarter, ProcessStarter
 from robocomp_dsl.deploy.supervisor.process_watch import ProcessWatch, WatchedProcess
 from robocomp_dsl.deploy.supervisor.waiting import wait_any
 
@@ -75,6 +76,7 @@ class Supervisor:
         self.options = options
         self.grace_s = options.grace_s
         self.environment: dict[str, str] = {}
+        self.starter: ProcessStarter = ExecutingStarter()
         self.stopping = asyncio.Event()
         self._kill_now = asyncio.Event()
         self._reason, self._code = "", 0
@@ -155,6 +157,7 @@ class Supervisor:
             for task in (duration, stopping, *self._tasks):
                 task.cancel()
             self._monitor.close()
+            self.starter.close()
             if self._notify:
                 self._notify.close()
             await asyncio.to_thread(self.external_connections.close)

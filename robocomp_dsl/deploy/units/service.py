@@ -166,6 +166,11 @@ def _limits(process: Process) -> Iterator[str]:
         yield "MemorySwapMax=0"
     if process.limits.cpu:
         yield f"CPUQuota={process.limits.cpu * 100:g}%"
+    if process.limits.cores:
+        yield f"CPUAffinity={' '.join(map(str, process.limits.cores))}"
+    if process.limits.realtime:
+        yield "CPUSchedulingPolicy=fifo"
+        yield f"CPUSchedulingPriority={process.limits.realtime}"
 
 
 def _identity(hosted: HostedProcess) -> Iterator[str]:

@@ -18,6 +18,8 @@ from typing import TextIO, TypeAlias
 
 ComponentOf: TypeAlias = Callable[[logging.LogRecord], str]
 """The component whose log a record belongs to."""
+HOST_VARIABLE = "ROBOCOMP_HOST"
+"""The name of this machine in the deployment; the default is its own name."""
 LEVELS = ("debug", "info", "warning", "error", "critical")
 _COLOURS = {"DEBUG": "2", "WARNING": "33", "ERROR": "31", "CRITICAL": "1;31"}
 
@@ -29,7 +31,7 @@ class JsonFormatter(logging.Formatter):
         super().__init__()
         self._component_of = component_of
         self._constant_fields = {
-            "host": socket.gethostname(),
+            "host": os.environ.get(HOST_VARIABLE) or socket.gethostname(),
             "pid": os.getpid(),
         }
 

@@ -1,8 +1,8 @@
 """Opens a session in a domain: between the processes of one machine, or through a router.
 
-In: a domain. Out: an open zenoh session that is connected to every live process of the domain.
-With `NetworkSettings` the session is a client of the router of its host. Otherwise the domain is a
-folder of sockets of one user on one machine: each process listens on a socket in the domain folder and connects to all members before it. Connections
+In: a domain. Out: an open zenoh session. With `NetworkSettings` it is a client of the router of its
+host. Otherwise the domain is a folder of sockets, for the processes of one user on one machine:
+each process listens on a socket in the folder and connects to all members before it. Connections
 are made in the background: a peer that does not respond is tried again until it does, and delays
 nobody. There is no multicast and no TCP port, unless a port is requested, which is bound to
 loopback. Every peer proves that it knows the token of the user.
@@ -74,7 +74,7 @@ def open_session(
     called. `hold_s`: how long a peer that receives nothing may hold a publication; 0: the default
     of zenoh.
 
-    Raises `MiddlewareError` if the name is taken, or if the folder, the port or the router cannot be
+    Raises `MiddlewareError` if the name is taken, or the folder, the port or the router cannot be
     used.
     """
     network = find_network_settings(domain)

@@ -116,9 +116,10 @@ def parse_endpoint(endpoint: object, place: object) -> tuple[str, int]:
 
 
 def _file_in(path: Path, data: Mapping[str, Any], field: str) -> Path:
-    if not isinstance(data[field], str) or not data[field]:
+    name = data[field]
+    if not isinstance(name, str) or not name:
         raise InvalidNetwork(f'{path}: "{field}" must be the path of a file')
-    return path.parent / data[field]
+    return path.parent / name
 
 
 def check_file(path: Path) -> None:

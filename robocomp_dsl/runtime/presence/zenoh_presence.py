@@ -113,6 +113,9 @@ class ZenohPresence:
 
     def close(self) -> None:
         """See `Presence`."""
+        # Others that stop at the same time would be reported one by one.
+        with contextlib.suppress(zenoh.ZError):
+            self._subscriber.undeclare()
         for record in list(self._tokens):
             self.withdraw(record)
         self.opened.close()

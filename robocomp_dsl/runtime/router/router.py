@@ -1,10 +1,11 @@
-"""The router of one host: clients of this host, and the routers of other hosts, with access control.
+"""The router of one host: connects its components and other routers, with access control.
 
 In: `RouterSettings`. Out: an open router; a log line for each link and each refusal.
 """
 
 from __future__ import annotations
 
+import errno
 import json
 import logging
 import socket
@@ -14,6 +15,7 @@ import zenoh
 
 from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.runtime.presence.close_session import close_client_session
 from robocomp_dsl.runtime.presence.network_settings import parse_endpoint
 from robocomp_dsl.runtime.presence.tls_settings import RETRY, base_settings, tls_settings
 from robocomp_dsl.runtime.router.denied_use import describe_denial
@@ -60,7 +62,7 @@ class Router:
 
     def close(self) -> None:
         """Close all links."""
-        self._session.close()
+        close_client_session(self._session)
 
 
 def check_can_listen(endpoint: str) -> None:
@@ -86,15 +88,15 @@ def check_can_listen(endpoint: str) -> None:
 def _bind_failure(host: str, port: int, error: OSError) -> str:
     place = f"the router cannot listen at {host} port {port}"
     match error.errno:
-        case 98:  # EADDRINUSE
+        case errno.EADDRINUSE:
             return (
-                f"{place}: another program uses the port; stop it (`ss -ltnp` shows it), or give the"
-                " host another one in the DDSL file: port N;"
+                f"{place}: another program uses the port; stop it (`ss -ltnp` shows it), or give"
+                " the host another one in the DDSL file: port N;"
             )
-        case 99:  # EADDRNOTAVAIL
+        case errno.EADDRNOTAVAIL:
             return (
-                f"{place}: this host does not have the address; correct `address` of the host in the"
-                " DDSL file, or wait until its network is up"
+                f"{place}: this host does not have the address; correct `address` of the host in"
+                " the DDSL file, or wait until its network is up"
             )
         case _:
             return f"{place}: {error.strerror or error}"

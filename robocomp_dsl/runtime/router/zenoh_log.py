@@ -58,7 +58,8 @@ class ZenohLog:
         os.close(write_end)
         os.environ["RUST_LOG"] = _FILTER
         os.environ["NO_COLOR"] = "1"
-        zenoh.try_init_log_from_env()
+        initialise: Callable[[], None] = zenoh.try_init_log_from_env
+        initialise()
         threading.Thread(target=self._read, name="zenoh.log", daemon=True).start()
 
     def _read(self) -> None:

@@ -229,9 +229,9 @@ class SimulatedHost:
 
     # ---------------------------------------------------------------- server
 
-    def write_sshd_config(self, extra: Sequence[str] = ()) -> None:
+    def write_sshd_config(self, extra: Sequence[str] = (), *, sftp: bool = True) -> None:
         """Change the settings of sshd, and let it read them; open sessions stay."""
-        accounts.write_sshd_config(self._files, self.user, extra)
+        accounts.write_sshd_config(self._files, self.user, extra, sftp=sftp)
         self.reload_sshd()
 
     def reload_sshd(self) -> None:

@@ -1,0 +1,1 @@
+"""The network of a deployment over hosts: keys, certificates, routers, access rules."""
