@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import re
 import time
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -57,10 +57,11 @@ class LogRecord:
 
 
 class LineSplitter:
-    """Splits a stream of bytes into records."""
+    """Splits a stream of bytes into records of `component`, or of one of the `members`."""
 
-    def __init__(self, component: str, stream: str) -> None:
+    def __init__(self, component: str, stream: str, members: Collection[str] = ()) -> None:
         self.component = component
+        self._members = frozenset(members)
         self.stream = stream
         self._rest = bytearray()
 
@@ -84,7 +85,9 @@ class LineSplitter:
         text = line.decode("utf-8", errors="replace").removesuffix("\r")
         fields = _parse_object(text) if text.startswith("{") else {}
         if "message" in fields and "level" in fields:
-            return _structured_record(self.component, fields, now)
+            member = str(fields.get("component"))
+            component = member if member in self._members else self.component
+            return _structured_record(component, fields, now)
         return LogRecord(now, self.component, "", text, self.stream)
 
 

@@ -11,7 +11,7 @@ from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.deploy import codes
 from robocomp_dsl.diagnostics import Diagnostic
 from robocomp_dsl.model.deployment import Deployment, Instance
-from robocomp_dsl.model.port_middlewares import port_middlewares
+from robocomp_dsl.model.port_middlewares import IN_PROCESS, port_middlewares
 from robocomp_dsl.runtime.middleware.registry import missing_modules
 
 
@@ -41,5 +41,6 @@ def _first_users(deployment: Deployment) -> dict[str, Instance]:
             for name in port_middlewares(
                 instance, port, deployment.connections, deployment.middleware
             ):
-                users.setdefault(name, instance)
+                if not (instance.process and name == IN_PROCESS):
+                    users.setdefault(name, instance)
     return users

@@ -8,67 +8,42 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from graphlib import TopologicalSorter
 from pathlib import Path
 
 from robocomp_dsl.deploy.connection_flags import connection_flags, middleware_flags, name_for
 from robocomp_dsl.deploy.devices import describe_devices, devices_environment
 from robocomp_dsl.deploy.external_program import ExternalProgram
+from robocomp_dsl.deploy.group_processes import join_groups
 from robocomp_dsl.deploy.plan_text import describe_clock, describe_host
+from robocomp_dsl.deploy.process import Process
 from robocomp_dsl.model.deployment import (
-    START_TIMEOUT_S,
     Clock,
     Deployment,
     External,
     ExternalConnection,
     Instance,
-    Readiness,
-    ResourceLimits,
     Restart,
 )
 from robocomp_dsl.model.port_middlewares import port_middlewares
 from robocomp_dsl.model.types import Literal
 from robocomp_dsl.runtime.time.clock_settings import LOCKSTEP, SIM, ClockSettings
 
+__all__ = [
+    "PYTHON_PROGRAMS",
+    "Plan",
+    "Process",
+    "batches",
+    "format_clock",
+    "format_literal",
+    "format_settings",
+    "plan",
+    "used_middlewares",
+]
+
 PYTHON_PROGRAMS = ("python3", "python")
 """Program names that stand for the interpreter that runs rcdeploy (it has the runtime)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Process:
-    """The process of one component.
-
-    `name` is the full name, with the prefix. `env` is added to the environment of rcdeploy.
-    `after`: components that must be ready before it starts; `stops_after`: components that must
-    have exited before it is stopped. `config`, `context`, `config_name` and `settings`
-    (`key=value`) are those in `argv`; `config` None: the component's default, or what it finds by
-    `context` and `config_name`. `port` 0: any free port. `host` and `group` are as written in the
-    description, empty for this machine and for no group; `devices` are text lines. `is_program`:
-    it is no component. `watchdog_s`: a callback that takes longer hangs; 0: no limit.
-    """
-
-    name: str
-    component: str
-    argv: tuple[str, ...]
-    cwd: Path
-    env: tuple[tuple[str, str], ...] = ()
-    after: tuple[str, ...] = ()
-    stops_after: tuple[str, ...] = ()
-    restart: Restart = field(default_factory=Restart)
-    start_timeout_s: float = START_TIMEOUT_S
-    readiness: Readiness = field(default_factory=Readiness)
-    limits: ResourceLimits = field(default_factory=ResourceLimits)
-    watchdog_s: float = 0.0
-    port: int = 0
-    config: Path | None = None
-    context: str = ""
-    config_name: str = ""
-    settings: tuple[str, ...] = ()
-    host: str = ""
-    group: str = ""
-    devices: tuple[str, ...] = ()
-    is_program: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +62,18 @@ class Plan:
     externals: tuple[ExternalProgram, ...] = ()
     external_connections: tuple[ExternalConnection, ...] = ()
 
+    @property
+    def components(self) -> tuple[Process, ...]:
+        """The process of each component, also of those in the process of their group."""
+        return tuple(each for process in self.processes for each in process.members or (process,))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of all processes, and of the components in each; log records have them."""
+        return tuple(
+            each.name for process in self.processes for each in (process, *process.members)
+        )
+
     def shutdown_batches(self) -> list[list[str]]:
         """Names of processes to stop, batch after batch; those of one batch stop together."""
         return batches({p.name: set(p.stops_after) for p in self.processes})
@@ -96,20 +83,20 @@ def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) ->
     """The processes of `deployment`. `interpreter` replaces `python3` in command lines."""
     full = {instance.name: instance.full_name for instance in deployment.instances}
     order = {name: i for i, name in enumerate(full)}
-    processes = tuple(
+    components = [
         replace(
             _process(deployment, instance, domain, interpreter),
             after=tuple(full[name] for name in instance.after),
             stops_after=tuple(full[n] for n in _stops_after(instance.name, deployment, order)),
         )
         for instance in deployment.instances
-    )
+    ]
     return Plan(
         name,
         deployment.path,
         domain,
         used_middlewares(deployment),
-        processes,
+        join_groups(deployment, components, interpreter),
         describe_clock(deployment.clock),
         tuple(_external(external, deployment) for external in deployment.externals),
         deployment.external_connections,

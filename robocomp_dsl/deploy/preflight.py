@@ -39,7 +39,7 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
     """
     findings: list[Diagnostic] = []
     findings += check_middlewares(deployment, KnownMiddlewares())
-    for instance, process in zip(deployment.instances, plan.processes, strict=True):
+    for instance, process in zip(deployment.instances, plan.components, strict=True):
         missing = list(_check_executable(instance, process))
         if missing or not instance.is_program:
             findings += missing or check_configuration(instance, process)
@@ -146,11 +146,11 @@ def _check_ports(deployment: Deployment) -> Iterator[Diagnostic]:
 def _check_names(deployment: Deployment, plan: Plan) -> Iterator[Diagnostic]:
     """Names that components have which already run in the domain."""
     try:
-        holders = running_components(plan.domain, [process.name for process in plan.processes])
+        holders = running_components(plan.domain, [process.name for process in plan.components])
     except UnsafeFolder:
         return  # the start reports it
     known = {holder.name: holder for holder in holders}
-    for instance, process in zip(deployment.instances, plan.processes, strict=True):
+    for instance, process in zip(deployment.instances, plan.components, strict=True):
         if holder := known.get(process.name):
             process_text = f" ({holder.describe()})" if holder.describe() else ""
             yield _diagnostic(

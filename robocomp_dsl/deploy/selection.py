@@ -66,6 +66,10 @@ class Selectable(Protocol):
     def group(self) -> str:
         """The group, empty for none."""
 
+    @property
+    def member_names(self) -> tuple[str, ...]:
+        """The components that run in it, if it is the process of a group."""
+
 
 def select_names(names: Iterable[str], processes: Sequence[Selectable]) -> list[str]:
     """The full names of components and of all members of groups, in the order of `processes`.
@@ -77,6 +81,11 @@ def select_names(names: Iterable[str], processes: Sequence[Selectable]) -> list[
         exact = [p.name for p in processes if p.name == name]
         short = [p.name for p in processes if p.name.rpartition("/")[2] == name]
         group = [p.name for p in processes if p.group == name or p.group.startswith(f"{name}-")]
+        owner = next((p for p in processes if _has_member(p, name)), None)
+        if owner and not (exact or short or group):
+            raise NoSuchComponent(
+                f"`{name}` runs in the process of the group `{owner.name}`; name the group"
+            )
         if not exact and len(short) > 1:
             raise NoSuchComponent(f"`{name}` is ambiguous: {', '.join(short)}")
         found = exact or short or group
@@ -84,6 +93,11 @@ def select_names(names: Iterable[str], processes: Sequence[Selectable]) -> list[
             raise NoSuchComponent(_unknown(name, processes))
         selected.update(found)
     return [p.name for p in processes if p.name in selected]
+
+
+def _has_member(process: Selectable, name: str) -> bool:
+    """Whether a component of that name, with or without its prefix, runs in the process."""
+    return any(name in (member, member.rpartition("/")[2]) for member in process.member_names)
 
 
 def _unknown(name: str, processes: Sequence[Selectable]) -> str:

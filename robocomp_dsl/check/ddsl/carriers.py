@@ -244,7 +244,9 @@ def _reach_problems(
     connection: Connection, name: str, capabilities: Capabilities, between_hosts: bool
 ) -> Iterator[_Problem]:
     code = codes.UNSUITABLE_MIDDLEWARE
-    if not capabilities.between_processes:
+    ends = (connection.source, connection.target)
+    in_one_process = bool(ends[0].process) and ends[0].process == ends[1].process
+    if not capabilities.between_processes and not in_one_process:
         message = f"`{name}` cannot connect processes, and each component is a process"
         yield _Problem(code, message)
     elif between_hosts and not capabilities.between_hosts:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterable, Iterator
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -42,9 +42,9 @@ _MAX_DAYS = 3650
 def command(
     app: Path,
     folders: tuple[Path, ...],
-    renew: bool,  # noqa: FBT001 - a flag of click
+    renew: bool,
     days: float,
-    show: bool,  # noqa: FBT001 - a flag of click
+    show: bool,
     output_format: str,
 ) -> None:
     """Make the certificates with which the components of APP.ddsl connect over hosts.
@@ -85,7 +85,7 @@ def _load(app: Path, folders: Iterable[Path]) -> Deployment:
 
 
 def _now() -> datetime:
-    return datetime.now(timezone.utc)
+    return datetime.now(UTC)
 
 
 def _update(

@@ -105,13 +105,14 @@ def _process(process: Process) -> dict[str, Any]:
         },
         "port": process.port,
         "devices": list(process.devices),
+        "members": [_process(member) for member in process.members],
     }
 
 
 def as_text(plan: Plan) -> Iterator[str]:
     """The plan as text with shell commands."""
     over = f" over {', '.join(plan.middlewares)}" if plan.middlewares else ""
-    count = len(plan.processes)
+    count = len(plan.components)
     yield f"{plan.name}: {count} component{'s' * (count != 1)}{over}"
     yield f"domain {plan.domain}"
     yield f"clock {plan.clock}"
@@ -143,6 +144,9 @@ def _described(process: Process, wave: int) -> Iterator[str]:
     yield f"{wave}. {process.name} ({process.component}){group}{place}{after}"
     ready = " ".join(filter(None, ["ready", format_readiness(process.readiness)]))
     yield f"   {ready} within {process.start_timeout_s:g} s, restart {restart}"
+    for member in process.members:
+        after = f" after {', '.join(member.after)}" if member.after else ""
+        yield f"   runs {member.name} ({member.component}){after}"
     if limits := format_limits(process.limits):
         yield f"   {limits}"
     yield from (

@@ -174,7 +174,7 @@ def _run(
     from robocomp_dsl.runtime.errors import MiddlewareError  # noqa: PLC0415
 
     try:
-        reservation = reserve(plan.domain, (process.name for process in plan.processes), plan.name)
+        reservation = reserve(plan.domain, (each.name for each in plan.components), plan.name)
     except (NameTaken, UnsafeFolder, OSError) as error:
         return Outcome(EXIT_FINDINGS, str(error))
     try:
@@ -184,7 +184,7 @@ def _run(
         return Outcome(EXIT_FINDINGS, str(error))
     terminal = Terminal(
         sys.stdout,
-        [process.name for process in plan.processes],
+        list(plan.names),
         live=output_format == "text" and (sys.stdout.isatty() if live is None else live),
         colours=options.use_colours(sys.stdout),
         as_json=output_format == "json",
@@ -200,7 +200,7 @@ def _run(
 
 def _open_log_store(plan: Plan, limits: LogLimits) -> LogStore | None:
     """Where the logs of this run are stored; None, and a warning, where they cannot be."""
-    components = tuple(process.name for process in plan.processes)
+    components = plan.names
     path = str(plan.path.resolve())
     run = LogRun(plan.name, path, plan.domain, os.getpid(), time.time(), components)
     try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from robocomp_dsl.deploy.content.tree import Tree
+from robocomp_dsl.deploy.content.tree import ContentTree
 from robocomp_dsl.deploy.hosts.connection import Upload
 from robocomp_dsl.deploy.hosts.fleet import Fleet
 from robocomp_dsl.deploy.hosts.host_agent import HostAgent
@@ -14,7 +14,7 @@ from robocomp_dsl.deploy.units import names
 
 
 async def copy_trees(
-    fleet: Fleet, described: Mapping[str, HostManifest], trees: Mapping[str, Tree]
+    fleet: Fleet, described: Mapping[str, HostManifest], trees: Mapping[str, ContentTree]
 ) -> None:
     """Copy the trees that hosts lack."""
     by_hash = {tree.hash: tree for tree in trees.values()}

@@ -12,7 +12,7 @@ from collections.abc import AsyncIterator, Callable, Iterable, Mapping
 from contextlib import asynccontextmanager
 
 from robocomp_dsl.deploy.content.describe import describe_trees
-from robocomp_dsl.deploy.content.tree import Tree
+from robocomp_dsl.deploy.content.tree import ContentTree
 from robocomp_dsl.deploy.hosts import registry
 from robocomp_dsl.deploy.hosts.copying import copy_trees
 from robocomp_dsl.deploy.hosts.description import (
@@ -77,7 +77,7 @@ class Deployer:
             raise_failures(fleet)
         return all_changes(described, reports)
 
-    def _describe(self) -> tuple[dict[str, HostManifest], dict[str, Tree]]:
+    def _describe(self) -> tuple[dict[str, HostManifest], dict[str, ContentTree]]:
         files = {i.full_name: i.files for i in self._deployment.instances}
         trees = describe_trees(self._deployment, self._plan, self._report, files)
         settings = {

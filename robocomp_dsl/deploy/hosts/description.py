@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from robocomp_dsl.deploy.content.relocate import relocate
-from robocomp_dsl.deploy.content.tree import Tree
+from robocomp_dsl.deploy.content.tree import ContentTree
 from robocomp_dsl.deploy.hosts import engine_codes
 from robocomp_dsl.deploy.hosts.manifest import HostedComponent, HostManifest
 from robocomp_dsl.deploy.plan import Plan, Process
@@ -71,7 +71,7 @@ def _identity(host: Host) -> tuple[str, str, int]:
 def describe_hosts(
     deployment: Deployment,
     plan: Plan,
-    trees: Mapping[str, Tree],
+    trees: Mapping[str, ContentTree],
     settings: Mapping[str, HostSettings],
     report: Report,
 ) -> dict[str, HostManifest]:
@@ -99,7 +99,7 @@ def _describe_host(
     name: str,
     members: list[tuple[Instance, Process]],
     plan: Plan,
-    trees: Mapping[str, Tree],
+    trees: Mapping[str, ContentTree],
     settings: HostSettings,
     report: Report,
 ) -> tuple[tuple[HostedComponent, ...], dict[str, str], dict[str, dict[str, str]]]:
@@ -120,7 +120,7 @@ def _describe_host(
 
 
 def _hosted(
-    host: str, process: Process, tree: Tree, root: str, settings: HostSettings
+    host: str, process: Process, tree: ContentTree, root: str, settings: HostSettings
 ) -> HostedProcess:
     there = relocate(
         process,
@@ -156,7 +156,7 @@ def _is_valid(instance: Instance, hosted: HostedProcess, deployment: str, report
 
 
 def _component(
-    host: str, process: Process, plan: Plan, trees: Mapping[str, Tree]
+    host: str, process: Process, plan: Plan, trees: Mapping[str, ContentTree]
 ) -> HostedComponent:
     return HostedComponent(
         process.name,
@@ -168,6 +168,7 @@ def _component(
         process.group,
         process.is_program,
         trees[process.name].hash,
+        process.member_names,
     )
 
 

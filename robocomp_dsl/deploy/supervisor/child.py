@@ -48,9 +48,10 @@ class ChildProcess:
         self.exited = asyncio.Event()
         self.code = 0
         self._open: dict[int, tuple[IO[bytes], LineSplitter]] = {}
+        members = [member.name for member in process.members]
         for name, stream in (("stdout", started.stdout), ("stderr", started.stderr)):
             os.set_blocking(stream.fileno(), False)
-            self._open[stream.fileno()] = (stream, LineSplitter(process.name, name))
+            self._open[stream.fileno()] = (stream, LineSplitter(process.name, name, members))
             self._loop.add_reader(stream.fileno(), self._read_chunk, stream.fileno())
         self._handle = os.pidfd_open(self.pid)
         self._has_exited = False

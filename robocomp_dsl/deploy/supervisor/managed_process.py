@@ -17,6 +17,7 @@ from robocomp_dsl.deploy.supervisor import lifecycle_monitor
 from robocomp_dsl.deploy.supervisor.child import ChildProcess, describe_exit
 from robocomp_dsl.deploy.supervisor.hang_watch import HangWatch
 from robocomp_dsl.deploy.supervisor.load_errors import LoadErrors
+from robocomp_dsl.deploy.supervisor.member_states import MemberStates
 from robocomp_dsl.deploy.supervisor.process_start import process_environment
 from robocomp_dsl.deploy.supervisor.restart import RestartDecision, decide_restart
 from robocomp_dsl.deploy.supervisor.supervisor_context import SupervisorContext
@@ -66,6 +67,7 @@ class ManagedProcess:
         self._load_errors = LoadErrors()
         self._end_hung: asyncio.Task[None] | None = None
         self.hang: HangReport | None = None
+        self.member_states = MemberStates(member.name for member in process.members)
 
     def status(self) -> ProcessStatus:
         """The current status."""
@@ -77,6 +79,7 @@ class ManagedProcess:
                 restarts=len(self.restart_times),
                 note=self._note,
                 hang=self.hang,
+                members=tuple((member.name, "") for member in self.process.members),
             )
         child.usage.sample()
         return ProcessStatus(
@@ -90,6 +93,7 @@ class ManagedProcess:
             self._note,
             self._lifecycle_state,
             hang=self.hang,
+            members=self.member_states.as_pairs(),
         )
 
     def on_state_changed(self, pid: int, state: str) -> None:

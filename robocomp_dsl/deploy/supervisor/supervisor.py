@@ -84,6 +84,7 @@ class Supervisor:
         self._notify: NotifySocket | None = None
         self._watches: dict[str, ProcessWatch] = {}
         self._processes = {p.name: ManagedProcess(p, self) for p in plan.processes}
+        self._owners = _owners(plan)
         self.external_connections = ExternalConnections(plan.external_connections, self.log)
         self._tasks: set[asyncio.Task[None]] = set()
         self._requests = 0
@@ -185,8 +186,14 @@ class Supervisor:
             self._all_exited.set_result(None)
 
     def _on_state_changed(self, name: str, pid: int, state: str) -> None:
-        if (process := self._processes.get(name)) is not None:
-            process.on_state_changed(pid, state)
+        owner = self._owners.get(name, name)
+        if (process := self._processes.get(owner)) is None:
+            return
+        if owner != name:
+            if process.child is None or not process.child.owns(pid):
+                return
+            state = process.member_states.update(name, pid, state)
+        process.on_state_changed(pid, state)
 
     async def _supervise(self, process: ManagedProcess) -> None:
         await process.run([self._processes[name] for name in process.process.after])
@@ -234,6 +241,7 @@ class Supervisor:
     def start_components(self, names: Iterable[str]) -> None:
         """Start components that are not active, as they are in `plan`; in order of `after`."""
         planned = {process.name: process for process in self.plan.processes}
+        self._owners |= _owners(self.plan)
         started = [ManagedProcess(planned[name], self, on_request=True) for name in names]
         self._processes |= {process.name: process for process in started}
         for process in started:
@@ -289,6 +297,11 @@ class Supervisor:
         if failed:
             return Outcome(1, f"failed: {', '.join(failed)}")
         return Outcome(self._code, self._reason or "all components exited")
+
+
+def _owners(plan: Plan) -> dict[str, str]:
+    """The processes of the components that share one, by component."""
+    return {member.name: process.name for process in plan.processes for member in process.members}
 
 
 def _may_be_started(process: ManagedProcess) -> bool:

@@ -9,7 +9,7 @@ import contextlib
 import socket
 import sys
 from collections.abc import Iterator, Sequence
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -122,7 +122,7 @@ def free_ports(number: int) -> list[int]:
     with contextlib.ExitStack() as stack:
         probes = [stack.enter_context(socket.socket()) for _ in range(number)]
         for probe in probes:
-            probe.bind(("0.0.0.0", 0))  # noqa: S104 - free at each address of loopback
+            probe.bind(("0.0.0.0", 0))
         return [probe.getsockname()[1] for probe in probes]
 
 
@@ -158,7 +158,7 @@ class SecuredDeployment:
         self.deployment: Deployment = deployment
         self.domain = f"{deployment.name}-test"
         self.keys: KeyFolder = key_folder(deployment.name)
-        update_keys(deployment.name, identities(deployment), self.keys, datetime.now(timezone.utc))
+        update_keys(deployment.name, identities(deployment), self.keys, datetime.now(UTC))
         self.write_settings()
 
     @property
@@ -200,7 +200,10 @@ class SecuredDeployment:
     def start(self, name: str, monkeypatch: pytest.MonkeyPatch, *options: str) -> RunningProcess:
         """Start a component as the plan of the deployment says."""
         planned = plan(
-            self.deployment, name=self.deployment.name, domain=self.domain, interpreter=sys.executable
+            self.deployment,
+            name=self.deployment.name,
+            domain=self.domain,
+            interpreter=sys.executable,
         )
         process = next(each for each in planned.processes if each.name == name)
         with monkeypatch.context() as patch:
