@@ -46,10 +46,13 @@ COUNTS = {"laser": 4, "camera": 10, "detector": 10, "tracker": 10, "joint": 7}
 """How many components of a kind a robot has, if not one."""
 
 
-def write_fleet(folder: Path, hosts: int = 20, components: int = 50) -> Path:
+def write_fleet(
+    folder: Path, hosts: int = 20, components: int = 50, placed_by: str = "on {}"
+) -> Path:
     """Write a fleet below `folder`; the path of its DDSL file. At least 46 components per host.
 
-    Its interfaces are in `folder / "interfaces"`.
+    Its interfaces are in `folder / "interfaces"`. `placed_by`: where the group of a robot runs;
+    `{}` is its host; `by load`: on one of all hosts.
     """
     interfaces = folder / "interfaces"
     interfaces.mkdir()
@@ -65,18 +68,18 @@ def write_fleet(folder: Path, hosts: int = 20, components: int = 50) -> Path:
         )
         (path / "main.py").write_text("")
     app = folder / "fleet.ddsl"
-    app.write_text("\n".join(_deployment(hosts, components)) + "\n")
+    app.write_text("\n".join(_deployment(hosts, components, placed_by)) + "\n")
     return app
 
 
-def _deployment(hosts: int, components: int) -> Iterator[str]:
+def _deployment(hosts: int, components: int, placed_by: str) -> Iterator[str]:
     for name in KINDS:
         yield f'import "{name}/{name}.cdsl";'
     yield "Deployment fleet\n{"
     for host in range(hosts):
         yield f'    host h{host} {{ address "10.0.{host}.2"; labels robot; }};'
     for host in range(hosts):
-        yield from _robot(host, components)
+        yield from _robot(host, components, placed_by)
     yield "    component traffic on h0;"
     for host in range(hosts):
         yield f"    connect traffic.mission{host} -> r{host}.Mission;"
@@ -84,8 +87,11 @@ def _deployment(hosts: int, components: int) -> Iterator[str]:
     yield "};"
 
 
-def _robot(host: int, components: int) -> Iterator[str]:
-    yield f"    group r{host} on h{host}\n    {{"
+def _robot(host: int, components: int, placed_by: str) -> Iterator[str]:
+    by_load = placed_by == "by load"
+    on = "" if by_load else f" {placed_by.format(f'h{host}')}"
+    yield f"    group r{host}{on}\n    {{"
+    yield from ["        place by load;"] if by_load else []
     names: list[str] = []
     for kind in KINDS:
         if kind in ("traffic", "logger"):
@@ -102,7 +108,8 @@ def _robot(host: int, components: int) -> Iterator[str]:
     yield "        connect localiser.Base -> base.Base;"
     yield "        connect planner.Base -> base.Base;"
     for number in range(COUNTS["laser"]):
-        yield f"        connect laser{number}.Scan -> localiser.Scan {{ best_effort; keep last 1; }};"
+        qos = "{ best_effort; keep last 1; }"
+        yield f"        connect laser{number}.Scan -> localiser.Scan {qos};"
     for number in range(COUNTS["camera"]):
         yield f"        connect camera{number}.Image -> detector{number}.Image over local;"
         yield f"        connect detector{number}.Objects -> tracker{number}.Objects;"

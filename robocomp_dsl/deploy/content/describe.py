@@ -25,6 +25,7 @@ from robocomp_dsl.deploy.content.tree import ContentTree, TreeFile, make_tree
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.deploy.preflight import search_config, short_path
 from robocomp_dsl.diagnostics import Code, Diagnostic, Report
+from robocomp_dsl.model.connection_index import ConnectionIndex
 from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.runtime.parameters import ConfigError
 
@@ -77,7 +78,8 @@ class TreeDescriber:
 
     def __init__(self, deployment: Deployment, plan: Plan, hashes: HashCache) -> None:
         self.hashes = hashes
-        self._deployment = deployment
+        self._path = deployment.path
+        self._connections = ConnectionIndex(deployment.connections)
         names = (process.name for process in plan.components)
         self._instances = dict(zip(names, deployment.instances, strict=True))
         self._scans: dict[str, FolderScan] = {}
@@ -119,8 +121,8 @@ class TreeDescriber:
         named = named_files(
             instance,
             process,
-            self._deployment.connections,
-            self._deployment.path,
+            self._connections.at(instance),
+            self._path,
             process.config or searched,
         )
         return _Member(instance, process, process.cwd.resolve(), named, searched)
