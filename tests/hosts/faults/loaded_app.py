@@ -80,10 +80,7 @@ class LoadedApp(HostedApp):
 
     def kill(self, component: str) -> float:
         """SIGKILL; returns the time by the monotonic clock [s]."""
-        pid = self.unit(component).pid
-        assert pid
-        output = self.host_of(component).run(["python3", "-c", KILL, str(pid)]).stdout
-        return float(output)
+        return kill_unit(self.host_of(component), self.unit(component).pid)
 
     def ready_again(self, component: str, since: float) -> float:
         """Wait until a component that ended at `since` is ready; the time [s] that took.
@@ -138,6 +135,12 @@ class LoadedApp(HostedApp):
         """How often a call was executed again."""
         executed = [entry[:2] for entry in self.journal("ledger", "executed")]
         return len(executed) - len(set(executed))
+
+
+def kill_unit(host: SimulatedHost, pid: int) -> float:
+    """SIGKILL to a process of a host; returns the time by the monotonic clock [s]."""
+    assert pid
+    return float(host.run(["python3", "-c", KILL, str(pid)]).stdout)
 
 
 def show_unit(host: SimulatedHost, unit: str) -> Unit:
