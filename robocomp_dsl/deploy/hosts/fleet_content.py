@@ -74,6 +74,7 @@ class FleetContent:
                 content.runtime.hash,
                 {process: each.hash for process, each in content.environments.items()},
                 self._networks.get(name, HostNetwork()),
+                facts[name].controllers,
             )
             for name, content in self._contents.items()
         }

@@ -111,8 +111,10 @@ async def roll_out(
     await copy(fleet)
     raise_failures(fleet)
     if not version:
+        # A start of what is deployed already is no new version.
+        is_new = any(each.written or each.removed for each in changes)
         stored = (number for host in reports.values() for number in host.versions)
-        version = max(stored, default=0) + 1 if changes else current
+        version = max(stored, default=0) + 1 if is_new else current
         described = {
             host: manifest.numbered(version, time.time(), describe_author())
             for host, manifest in described.items()
@@ -204,7 +206,7 @@ async def _start(
         if change.verb != STOP
     }
     runner = UnitRunner(fleet.agents, components, report)
-    await start_helpers(fleet, described)
+    await start_helpers(fleet, described, result.changes)
     await runner.watch()
     ordered = [name for name in components if name in verbs]
     await runner.start(ordered, {name for name, verb in verbs.items() if verb == RESTART})
@@ -212,8 +214,11 @@ async def _start(
     await enable(fleet, described)
 
 
-async def start_helpers(fleet: Fleet, described: Mapping[str, HostManifest]) -> None:
-    """Start the units that are no components, such as the timer of the logs and the router."""
+async def start_helpers(
+    fleet: Fleet, described: Mapping[str, HostManifest], changes: Iterable[HostChanges] = ()
+) -> None:
+    """Start the units that are no components, such as the timer of the logs."""
+    written = {each.host: each.written for each in changes}
 
     async def start(agent: HostAgent) -> None:
         if manifest := described.get(agent.host.name):
@@ -221,7 +226,9 @@ async def start_helpers(fleet: Fleet, described: Mapping[str, HostManifest]) -> 
             target = names.target_name(manifest.deployment)
             once = names.log_trim_name(manifest.deployment, "service")
             helpers = [u for u in manifest.units if u not in own and u not in (target, once)]
-            await agent.systemctl("start", helpers)
+            again = [unit for unit in helpers if unit in written.get(agent.host.name, ())]
+            await agent.systemctl("restart", again)
+            await agent.systemctl("start", [unit for unit in helpers if unit not in again])
 
     await fleet.each(start)
     raise_failures(fleet)

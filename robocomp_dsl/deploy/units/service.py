@@ -28,7 +28,7 @@ _MARK = '+{"time": %s.%N, "level": "INFO", "message": "'
 """A log line as a format of date(1). It dates the lines of programs, which have no time."""
 END_TEXT = "ended: ${EXIT_CODE} ${EXIT_STATUS} (${SERVICE_RESULT})"
 """systemd.exec(5) sets the variables."""
-READINESS = "robocomp_dsl.deploy.units.wait_until_ready"
+READINESS = "robocomp_dsl.host_tools.wait_until_ready"
 _WATCHDOG_VARIABLE = "WATCHDOG_USEC"
 _CLEAN_SIGNALS = "SIGHUP SIGINT SIGTERM SIGPIPE"
 """Ends that are a success for systemd, and a failure for rcdeploy unless it stops the process."""
