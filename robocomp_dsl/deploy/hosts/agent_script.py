@@ -32,6 +32,8 @@ CPU_SAMPLE_S = 0.2
 TICKS = os.sysconf("SC_CLK_TCK")
 PAGE = os.sysconf("SC_PAGE_SIZE")
 REVISION = b"ROBOCOMP_UNIT="
+DRAFT = re.compile(r"\.[0-9a-f]{8}~$")
+"""A file that is not yet complete; the deployer renames it at the end."""
 
 
 def systemctl(*words: str) -> tuple[int, str, str]:
@@ -115,7 +117,7 @@ class Agent:
         return {
             name: text
             for name in names
-            if name.startswith(self.prefixes)
+            if name.startswith(self.prefixes) and not DRAFT.search(name)
             for text in [read_text(UNITS / name)]
             if text is not None
         }
@@ -172,7 +174,17 @@ class Agent:
         os.ftruncate(descriptor, 0)
         os.write(descriptor, who.encode())
         self.lock = descriptor
+        self.remove_drafts()
         return {"holder": ""}
+
+    def remove_drafts(self) -> None:
+        """Remove what a deployer has left that was killed while it wrote."""
+        for folder in (UNITS, self.root, self.root / "versions", self.root / "private"):
+            with contextlib.suppress(OSError):
+                for path in folder.iterdir():
+                    own = folder != UNITS or path.name.startswith(self.prefixes)
+                    if own and DRAFT.search(path.name):
+                        path.unlink()
 
     def control(self, operation: str, units: list[str]) -> dict[str, Any]:
         """`systemctl VERB UNITS`; for long jobs without waiting."""
