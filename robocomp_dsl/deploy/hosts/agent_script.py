@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import contextlib
 import fcntl
+import hashlib
 import json
 import os
 import re
@@ -147,11 +148,20 @@ class Agent:
             "current": current,
             "versions": self.versions(),
             "manifest": manifest,
+            "router": self.router_settings(),
             "units": files,
             "states": states,
             "monotonic": time.clock_gettime(time.CLOCK_MONOTONIC),
             "time": time.time(),
         }
+
+    def router_settings(self) -> str:
+        """The hash of the settings that the router has."""
+        try:
+            content = (self.root / "private" / "router.json").read_bytes()
+        except OSError:
+            return ""
+        return hashlib.sha256(content).hexdigest()[:16]
 
     def versions(self) -> list[int]:
         """The numbers of the versions that are stored here."""

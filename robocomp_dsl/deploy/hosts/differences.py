@@ -13,9 +13,9 @@ from typing import Any
 from robocomp_dsl.deploy import status
 from robocomp_dsl.deploy.hosts.host_report import HostReport, UnitState
 from robocomp_dsl.deploy.hosts.manifest import HostManifest, InvalidManifest
-from robocomp_dsl.deploy.units.service import find_revision
+from robocomp_dsl.deploy.units.service import find_revision, find_settings
 
-START, RESTART, STOP = "start", "restart", "stop"
+START, RESTART, RELOAD, STOP = "start", "restart", "reload", "stop"
 _LISTED_FILES = 5
 
 
@@ -109,6 +109,11 @@ def _change(
     running = state.revision or find_revision(report.units[unit])
     if running != described:
         return RESTART, _reason(report.units[unit], units[unit])
+    if (settings := find_settings(units[unit])) and (
+        settings != find_settings(report.units[unit])
+        or not settings.startswith(f"{report.router}-")
+    ):
+        return RELOAD, "changed: access rules, addresses or certificate"
     if state.state == status.BACKOFF:
         return RESTART, f"restarting: {state.note}" if state.note else "restarting"
     return None
@@ -121,7 +126,6 @@ def _reason(old: str, new: str) -> str:
         "Tree": "files",
         "Environment": "Python packages",
         "Certificate": "network settings or certificate",
-        "Settings": "network settings or access rules",
     }
     identity = [
         text

@@ -16,7 +16,9 @@ from dataclasses import dataclass, field
 from robocomp_dsl.deploy.hosts import codes
 from robocomp_dsl.deploy.hosts.connection import Upload
 from robocomp_dsl.deploy.hosts.differences import (
+    RELOAD,
     RESTART,
+    START,
     STOP,
     HostChanges,
     compare,
@@ -203,15 +205,32 @@ async def _start(
         change.component: change.verb
         for each in result.changes
         for change in each.components
-        if change.verb != STOP
+        if change.verb in (START, RESTART)
     }
     runner = UnitRunner(fleet.agents, components, report)
     await start_helpers(fleet, described, result.changes)
+    await _reload(fleet, described, result.changes, report)
     await runner.watch()
     ordered = [name for name in components if name in verbs]
     await runner.start(ordered, {name for name, verb in verbs.items() if verb == RESTART})
     result.failed.update(runner.failed)
     await enable(fleet, described)
+
+
+async def _reload(
+    fleet: Fleet,
+    described: Mapping[str, HostManifest],
+    changes: Iterable[HostChanges],
+    report: Report,
+) -> None:
+    """Let routers read their settings again, before components need them."""
+    for each in changes:
+        deployed = described[each.host].components if each.host in described else ()
+        units = {component.name: component.unit for component in deployed}
+        for change in each.components:
+            if change.verb == RELOAD:
+                await fleet.agents[each.host].systemctl("reload", [units[change.component]])
+                report(f"{change.component} ({each.host}): reloaded")
 
 
 async def start_helpers(

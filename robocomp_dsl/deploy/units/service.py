@@ -31,8 +31,9 @@ END_TEXT = "ended: ${EXIT_CODE} ${EXIT_STATUS} (${SERVICE_RESULT})"
 READINESS = "robocomp_dsl.host_tools.wait_until_ready"
 _WITHOUT_RESTART = frozenset(
     {
-        "ExecStartPost", "ExecStartPre", "ExecStopPost", "KillMode", "Restart", "RestartSec",
-        "RestartForceExitStatus", "SuccessExitStatus", "TimeoutStartSec", "TimeoutStopSec",
+        "ExecReload", "ExecStartPost", "ExecStartPre", "ExecStopPost", "KillMode", "Restart",
+        "RestartSec", "RestartForceExitStatus", "SuccessExitStatus", "TimeoutStartSec",
+        "TimeoutStopSec",
     }
 )  # fmt: skip
 """Settings that systemd takes over while the process runs, as those of the order."""
@@ -77,7 +78,15 @@ def join_sections(head: list[str], service: list[str], identity: list[str]) -> s
 
 def find_revision(text: str) -> str:
     """The revision in the text of a unit, "" if it has none."""
-    key = f"Environment={REVISION_VARIABLE}="
+    return _find(text, f"Environment={REVISION_VARIABLE}=")
+
+
+def find_settings(text: str) -> str:
+    """What identifies the settings in the text of a router's unit, "" for other units."""
+    return _find(text, "Settings=")
+
+
+def _find(text: str, key: str) -> str:
     return next((line[len(key) :] for line in text.splitlines() if line.startswith(key)), "")
 
 
