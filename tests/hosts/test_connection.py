@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import os
+import subprocess
+import tempfile
 from collections.abc import Coroutine
 from pathlib import Path
 from typing import Any
@@ -21,6 +23,7 @@ from robocomp_dsl.deploy.hosts.errors import (
 from robocomp_dsl.model.deployment import Host
 from tests.hosts.rig.hosts import Hosts
 from tests.hosts.rig.machine import SimulatedHost
+from tests.support.waiting import wait_until
 
 TEST_TIMEOUT_S = 120.0
 
@@ -256,3 +259,48 @@ def test_connection_refuses_unknown_and_changed_host_keys(
         f"@revoked * {robot.host_key()}\n{robot.address} {robot.host_key()}\n", "utf-8"
     )
     assert "its host key is revoked in ~/.ssh/known_hosts:1" in str(failure(host_of(robot)))
+
+
+def test_connection_goes_through_a_jump_host(
+    module_hosts: Hosts, robot: SimulatedHost, operator: Path
+) -> None:
+    jump = module_hosts.start("jump")
+    module_hosts.trust()
+    config = operator / ".ssh/config"
+    config.write_text(f"Host robot\n  HostName {robot.address}\n  ProxyJump jump@{jump.address}\n")
+
+    async def session() -> str:
+        connection = await connect(Host("robot", "robot", "robot"))
+        text = (await connection.run(["sh", "-c", "echo $SSH_CONNECTION"])).text
+        await connection.close()
+        return text
+
+    try:
+        assert run(session()).split()[0] == jump.address
+    finally:
+        config.unlink()
+
+
+def test_connection_uses_the_ssh_agent(
+    robot: SimulatedHost, operator: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    key = operator / ".ssh/id_ed25519"
+    elsewhere = key.rename(tmp_path / "key")
+    with tempfile.TemporaryDirectory() as folder:  # paths of sockets must be short
+        socket = Path(folder, "agent")
+        with subprocess.Popen(["ssh-agent", "-D", "-a", str(socket)], stdout=-1) as agent:
+            try:
+                wait_until(socket.exists, "no agent")
+                monkeypatch.setenv("SSH_AUTH_SOCK", str(socket))
+                subprocess.run(["ssh-add", "-q", str(elsewhere)], check=True)
+
+                async def session() -> int:
+                    connection = await connect(host_of(robot))
+                    code = (await connection.run(["true"])).code
+                    await connection.close()
+                    return code
+
+                assert run(session()) == 0
+            finally:
+                agent.kill()
+                elsewhere.rename(key)
