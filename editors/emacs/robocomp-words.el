@@ -102,6 +102,7 @@
      "implements"
      "import"
      "in"
+     "inprocess"
      "keep"
      "label"
      "labels"

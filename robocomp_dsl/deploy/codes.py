@@ -106,25 +106,6 @@ Right:
 """,
 )
 
-OTHER_MACHINE = Code(
-    "RC907",
-    Severity.ERROR,
-    "component on another machine",
-    """\
-rcdeploy starts components only on the machine it runs on: those without a host, on `localhost`, or
-on a host whose address is this machine. Remote hosts are not supported yet.
-
-Wrong:
-
-    host robot { address "10.0.0.2"; };
-    component arm on robot;
-
-Right:
-
-    component arm on localhost;
-""",
-)
-
 SCHEDULING = Code(
     "RC575",
     Severity.ERROR,
@@ -142,5 +123,28 @@ Right:
 
     component motor { cores 3; realtime priority 50; };
     // in /etc/security/limits.conf:  @realtime - rtprio 99
+""",
+)
+
+NO_FITTING_HOST = Code(
+    "RC576",
+    Severity.ERROR,
+    "no host fits components that must run together",
+    """\
+The members of a group that is placed as one run on the same host, and so do two components whose
+connection has no middleware that connects hosts, such as `local`. The host must be a candidate of
+all of them.
+
+Wrong:
+
+    host robot { address "10.0.0.2"; labels gpu; };
+    host desk { address "10.0.0.3"; labels arm; };
+    component vision on label gpu;
+    component motor on label arm;
+    connect vision.JointMotor -> motor.JointMotor over local;
+
+Right:
+
+    connect vision.JointMotor -> motor.JointMotor over zenoh;
 """,
 )

@@ -63,7 +63,7 @@ class Engine(Protocol):
         """Its description, for JSON."""
 
     def components(self) -> list[str]:
-        """The full names of its components and programs."""
+        """The full names of its components and programs, and of groups that are one process."""
 
     def answering_components(self) -> list[str]:
         """The full names of its components, without the programs, which answer no calls."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import re
 import time
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -29,7 +29,8 @@ _CONTROL_CHARS = re.compile(r"\x1b(?!\[[0-9;]*m)|[\x00-\x08\x0b-\x1a\x1c-\x1f\x7
 class LogRecord:
     """One line of output. `time` in s since 1970; `level` is empty for lines of user code.
 
-    `sequence` counts the records of one run from 1; 0 before it is known.
+    `sequence` counts the records of one run from 1; 0 before it is known. `host` is the name of the
+    machine in the description; empty for a deployment on one machine.
     """
 
     time: float
@@ -38,6 +39,12 @@ class LogRecord:
     text: str
     stream: str = "log"
     sequence: int = 0
+    host: str = ""
+
+    @property
+    def label(self) -> str:
+        """The host, if there are several, and the component."""
+        return f"{self.host} {self.component}" if self.host else self.component
 
     def to_json(self) -> str:
         """The record as one line of JSON."""
@@ -50,10 +57,11 @@ class LogRecord:
 
 
 class LineSplitter:
-    """Splits a stream of bytes into records."""
+    """Splits a stream of bytes into records of `component`, or of one of the `members`."""
 
-    def __init__(self, component: str, stream: str) -> None:
+    def __init__(self, component: str, stream: str, members: Collection[str] = ()) -> None:
         self.component = component
+        self._members = frozenset(members)
         self.stream = stream
         self._rest = bytearray()
 
@@ -77,7 +85,9 @@ class LineSplitter:
         text = line.decode("utf-8", errors="replace").removesuffix("\r")
         fields = _parse_object(text) if text.startswith("{") else {}
         if "message" in fields and "level" in fields:
-            return _structured_record(self.component, fields, now)
+            member = str(fields.get("component"))
+            component = member if member in self._members else self.component
+            return _structured_record(component, fields, now)
         return LogRecord(now, self.component, "", text, self.stream)
 
 
@@ -110,11 +120,20 @@ def _structured_record(component: str, fields: Mapping[str, Any], now: float) ->
     return LogRecord(logged if plausible else now, component, str(fields["level"]).upper(), text)
 
 
+def parse_line(component: str, text: str, time: float, stream: str) -> LogRecord:
+    """A stored line: a JSON line with its own time, or any text, at `time` [s since 1970]."""
+    fields = _parse_object(text) if text.startswith("{") else {}
+    if "message" not in fields or "level" not in fields:
+        return LogRecord(time, component, "", text, stream)
+    logged = fields.get("time")
+    return _structured_record(component, fields, logged if isinstance(logged, float) else time)
+
+
 def format_record(record: LogRecord, width: int, *, colours: bool) -> str:
     """`record` as text: time, name, level and message, further lines below it."""
     stamp = time.strftime("%H:%M:%S", time.localtime(record.time))
     stamp += f".{int(record.time % 1 * 1000):03d}"
-    name = record.component.ljust(width)
+    name = record.label.ljust(width)
     level = "" if record.level in ("", "INFO") else f"{record.level.lower()}: "
     head, *more = _CONTROL_CHARS.sub("\N{REPLACEMENT CHARACTER}", record.text).split("\n")
     if colours:

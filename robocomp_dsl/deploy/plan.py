@@ -7,68 +7,45 @@ command line with its connections, the environment, and the start and stop order
 from __future__ import annotations
 
 import shlex
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from graphlib import TopologicalSorter
 from pathlib import Path
 
 from robocomp_dsl.deploy.connection_flags import connection_flags, middleware_flags, name_for
 from robocomp_dsl.deploy.devices import describe_devices, devices_environment
 from robocomp_dsl.deploy.external_program import ExternalProgram
+from robocomp_dsl.deploy.group_processes import join_groups
 from robocomp_dsl.deploy.plan_text import describe_clock, describe_host
+from robocomp_dsl.deploy.process import Process
+from robocomp_dsl.model.connection_index import ConnectionIndex
 from robocomp_dsl.model.deployment import (
-    START_TIMEOUT_S,
     Clock,
+    Connection,
     Deployment,
     External,
     ExternalConnection,
     Instance,
-    Readiness,
-    ResourceLimits,
     Restart,
 )
 from robocomp_dsl.model.port_middlewares import port_middlewares
 from robocomp_dsl.model.types import Literal
 from robocomp_dsl.runtime.time.clock_settings import LOCKSTEP, SIM, ClockSettings
 
+__all__ = [
+    "PYTHON_PROGRAMS",
+    "Plan",
+    "Process",
+    "batches",
+    "format_clock",
+    "format_literal",
+    "format_settings",
+    "plan",
+    "used_middlewares",
+]
+
 PYTHON_PROGRAMS = ("python3", "python")
 """Program names that stand for the interpreter that runs rcdeploy (it has the runtime)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Process:
-    """The process of one component.
-
-    `name` is the full name, with the prefix. `env` is added to the environment of rcdeploy.
-    `after`: components that must be ready before it starts; `stops_after`: components that must
-    have exited before it is stopped. `config`, `context`, `config_name` and `settings`
-    (`key=value`) are those in `argv`; `config` None: the component's default, or what it finds by
-    `context` and `config_name`. `port` 0: any free port. `host` and `group` are as written in the
-    description, empty for this machine and for no group; `devices` are text lines. `is_program`:
-    it is no component. `watchdog_s`: a callback that takes longer hangs; 0: no limit.
-    """
-
-    name: str
-    component: str
-    argv: tuple[str, ...]
-    cwd: Path
-    env: tuple[tuple[str, str], ...] = ()
-    after: tuple[str, ...] = ()
-    stops_after: tuple[str, ...] = ()
-    restart: Restart = field(default_factory=Restart)
-    start_timeout_s: float = START_TIMEOUT_S
-    readiness: Readiness = field(default_factory=Readiness)
-    limits: ResourceLimits = field(default_factory=ResourceLimits)
-    watchdog_s: float = 0.0
-    port: int = 0
-    config: Path | None = None
-    context: str = ""
-    config_name: str = ""
-    settings: tuple[str, ...] = ()
-    host: str = ""
-    group: str = ""
-    devices: tuple[str, ...] = ()
-    is_program: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +64,18 @@ class Plan:
     externals: tuple[ExternalProgram, ...] = ()
     external_connections: tuple[ExternalConnection, ...] = ()
 
+    @property
+    def components(self) -> tuple[Process, ...]:
+        """The process of each component, also of those in the process of their group."""
+        return tuple(each for process in self.processes for each in process.members or (process,))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of all processes, and of the components in each; log records have them."""
+        return tuple(
+            each.name for process in self.processes for each in (process, *process.members)
+        )
+
     def shutdown_batches(self) -> list[list[str]]:
         """Names of processes to stop, batch after batch; those of one batch stop together."""
         return batches({p.name: set(p.stops_after) for p in self.processes})
@@ -96,20 +85,27 @@ def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) ->
     """The processes of `deployment`. `interpreter` replaces `python3` in command lines."""
     full = {instance.name: instance.full_name for instance in deployment.instances}
     order = {name: i for i, name in enumerate(full)}
-    processes = tuple(
+    index = ConnectionIndex(deployment.connections)
+    followers = _followers(deployment)
+    components = [
         replace(
-            _process(deployment, instance, domain, interpreter),
+            _process(deployment, instance, domain, interpreter, index.at(instance)),
             after=tuple(full[name] for name in instance.after),
-            stops_after=tuple(full[n] for n in _stops_after(instance.name, deployment, order)),
+            stops_after=tuple(
+                full[name]
+                for name in _stops_after(
+                    instance, followers[instance.name], index.at(instance), order
+                )
+            ),
         )
         for instance in deployment.instances
-    )
+    ]
     return Plan(
         name,
         deployment.path,
         domain,
         used_middlewares(deployment),
-        processes,
+        join_groups(deployment, components, interpreter),
         describe_clock(deployment.clock),
         tuple(_external(external, deployment) for external in deployment.externals),
         deployment.external_connections,
@@ -118,11 +114,12 @@ def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) ->
 
 def used_middlewares(deployment: Deployment) -> tuple[str, ...]:
     """The middlewares that the ports of a deployment use, in order of first use."""
+    index = ConnectionIndex(deployment.connections)
     names = {
         name: None
         for instance in deployment.instances
         for port in instance.component.ports
-        for name in port_middlewares(instance, port, deployment.connections, deployment.middleware)
+        for name in port_middlewares(instance, port, index.at(instance), deployment.middleware)
     }
     return tuple(names)
 
@@ -171,13 +168,20 @@ def format_literal(value: Literal) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _process(deployment: Deployment, instance: Instance, domain: str, interpreter: str) -> Process:
+def _process(
+    deployment: Deployment,
+    instance: Instance,
+    domain: str,
+    interpreter: str,
+    connections: Sequence[Connection],
+) -> Process:
+    """The process of `instance`, which has the `connections`."""
     clock = deployment.clock
     stops_all = clock.stop_on_timeout and clock.source is instance
     return Process(
         name=instance.full_name,
         component="program" if instance.is_program else instance.component.name,
-        argv=tuple(_command_line(deployment, instance, domain, interpreter)),
+        argv=tuple(_command_line(deployment, instance, domain, interpreter, connections)),
         cwd=instance.component.path.parent,
         env=(
             *instance.environment,
@@ -214,7 +218,11 @@ def _watchdog_environment(instance: Instance) -> tuple[tuple[str, str], ...]:
 
 
 def _command_line(
-    deployment: Deployment, instance: Instance, domain: str, interpreter: str
+    deployment: Deployment,
+    instance: Instance,
+    domain: str,
+    interpreter: str,
+    connections: Sequence[Connection],
 ) -> list[str]:
     command = shlex.split(instance.executable)
     if command and command[0] in PYTHON_PROGRAMS:
@@ -224,7 +232,7 @@ def _command_line(
     argv = [*command, "--name", instance.name]
     argv += ["--prefix", instance.prefix] if instance.prefix else []
     argv += ["--domain", domain]
-    argv += middleware_flags(deployment, instance)
+    argv += middleware_flags(deployment, instance, connections)
     argv += ["--log-format", "json"]
     argv += ["--config", str(instance.config)] if instance.config else []
     argv += ["--context", instance.context] if instance.context else []
@@ -234,7 +242,7 @@ def _command_line(
     argv += _watchdog_flags(instance)
     if deployment.clock.source:
         argv += ["--clock", format_clock(deployment.clock, instance, deployment.instances)]
-    return argv + connection_flags(instance, deployment.connections)
+    return argv + connection_flags(instance, connections)
 
 
 def _watchdog_flags(instance: Instance) -> list[str]:
@@ -259,14 +267,30 @@ def format_clock(clock: Clock, instance: Instance, instances: Sequence[Instance]
     return settings.as_text()
 
 
-def _stops_after(name: str, deployment: Deployment, order: dict[str, int]) -> tuple[str, ...]:
-    """The components that use `name` and so stop before it: by `after`, or as later clients.
+def _followers(deployment: Deployment) -> dict[str, list[str]]:
+    """The instances that start after each instance."""
+    followers: dict[str, list[str]] = {instance.name: [] for instance in deployment.instances}
+    for instance in deployment.instances:
+        for name in instance.after:
+            if name in followers:
+                followers[name].append(instance.name)
+    return followers
+
+
+def _stops_after(
+    instance: Instance,
+    followers: Sequence[str],
+    connections: Sequence[Connection],
+    order: Mapping[str, int],
+) -> tuple[str, ...]:
+    """The components that use `instance` and so stop before it: by `after`, or as later clients.
 
     If two components use each other, the order of the deployment decides; there is no cycle.
     """
-    users = {instance.name for instance in deployment.instances if name in instance.after}
-    for connection in deployment.connections:
+    name = instance.name
+    users = set(followers)
+    for connection in connections:
         ends = (connection.source.name, connection.target.name)
-        if name in ends and ends[0] != ends[1] and all(end in order for end in ends):
+        if ends[0] != ends[1] and all(end in order for end in ends):
             users.add(ends[1] if ends[0] == name else ends[0])
     return tuple(sorted((u for u in users if order[u] > order[name]), key=order.__getitem__))

@@ -19,7 +19,7 @@ from robocomp_dsl.deploy.parameters import runtime_schema
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.deploy.port_addresses import check_port_addresses
 from robocomp_dsl.deploy.supervisor.scheduling import scheduling_error
-from robocomp_dsl.diagnostics import Code, Diagnostic, Note
+from robocomp_dsl.diagnostics import Code, Diagnostic
 from robocomp_dsl.finding import Finding
 from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.runtime.config import ConfigRequest, SearchEnvironment, resolve_config
@@ -39,14 +39,12 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
     """
     findings: list[Diagnostic] = []
     findings += check_middlewares(deployment, KnownMiddlewares())
-    for instance, process in zip(deployment.instances, plan.processes, strict=True):
-        if not instance.host.is_local:
-            findings.append(_remote_host(instance))
-            continue
+    for instance, process in zip(deployment.instances, plan.components, strict=True):
         missing = list(_check_executable(instance, process))
         if missing or not instance.is_program:
             findings += missing or check_configuration(instance, process)
-        findings += _check_scheduling(instance)
+        if instance.host.is_local:
+            findings += _check_scheduling(instance)
     if ports:
         findings += _check_ports(deployment)
         findings += check_port_addresses(deployment, KnownMiddlewares(), _bind_error)
@@ -54,26 +52,14 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
     return findings
 
 
-def _remote_host(instance: Instance) -> Diagnostic:
-    host = instance.host
-    address = host.address or "an unknown address"
-    notes = (Note(host.span, f"`{host.name}` is declared here"),) if host.span else ()
-    return Diagnostic(
-        codes.OTHER_MACHINE,
-        instance.host_span or instance.span,
-        f"`{instance.name}` is on `{host.name}` ({address}); remote hosts are not supported yet",
-        label="rcdeploy starts components on this machine only",
-        notes=notes,
-        help="write `on localhost`, or run a separate deployment on that machine",
-    )
-
-
 def _check_executable(instance: Instance, process: Process) -> Iterator[Diagnostic]:
     if not process.cwd.is_dir():
         yield _diagnostic(instance, codes.EXECUTABLE, f"folder not found: {process.cwd}")
         return
     program = process.argv[0]
-    if not _program_exists(program, process):
+    # Only the host itself knows which programs it has.
+    is_here = instance.host.is_local or (os.sep in program and not Path(program).is_absolute())
+    if is_here and not _program_exists(program, process):
         yield _diagnostic(instance, codes.EXECUTABLE, f"program not found: `{program}`")
     script = process.argv[1] if len(process.argv) > 1 else ""
     if not script.endswith(".py") or (process.cwd / script).is_file():
@@ -161,11 +147,11 @@ def _check_ports(deployment: Deployment) -> Iterator[Diagnostic]:
 def _check_names(deployment: Deployment, plan: Plan) -> Iterator[Diagnostic]:
     """Names that components have which already run in the domain."""
     try:
-        holders = running_components(plan.domain, [process.name for process in plan.processes])
+        holders = running_components(plan.domain, [process.name for process in plan.components])
     except UnsafeFolder:
         return  # the start reports it
     known = {holder.name: holder for holder in holders}
-    for instance, process in zip(deployment.instances, plan.processes, strict=True):
+    for instance, process in zip(deployment.instances, plan.components, strict=True):
         if holder := known.get(process.name):
             process_text = f" ({holder.describe()})" if holder.describe() else ""
             yield _diagnostic(

@@ -8,8 +8,8 @@ the domain if they run there. Or, in: processes and names as a user types them; 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Protocol
 
-from robocomp_dsl.deploy.plan import Process
 from robocomp_dsl.diagnostics import did_you_mean
 from robocomp_dsl.model.deployment import Deployment, Instance
 
@@ -55,7 +55,23 @@ def select_group(deployment: Deployment, name: str) -> Deployment:
     )
 
 
-def select_names(names: Iterable[str], processes: Sequence[Process]) -> list[str]:
+class Selectable(Protocol):
+    """A component or program with its full name, and the group that it is in."""
+
+    @property
+    def name(self) -> str:
+        """Its full name."""
+
+    @property
+    def group(self) -> str:
+        """The group, empty for none."""
+
+    @property
+    def member_names(self) -> tuple[str, ...]:
+        """The components that run in it, if it is the process of a group."""
+
+
+def select_names(names: Iterable[str], processes: Sequence[Selectable]) -> list[str]:
     """The full names of components and of all members of groups, in the order of `processes`.
 
     A component may be named without its prefix. Raises `NoSuchComponent`.
@@ -65,6 +81,11 @@ def select_names(names: Iterable[str], processes: Sequence[Process]) -> list[str
         exact = [p.name for p in processes if p.name == name]
         short = [p.name for p in processes if p.name.rpartition("/")[2] == name]
         group = [p.name for p in processes if p.group == name or p.group.startswith(f"{name}-")]
+        owner = next((p for p in processes if _has_member(p, name)), None)
+        if owner and not (exact or short or group):
+            raise NoSuchComponent(
+                f"`{name}` runs in the process of the group `{owner.name}`; name the group"
+            )
         if not exact and len(short) > 1:
             raise NoSuchComponent(f"`{name}` is ambiguous: {', '.join(short)}")
         found = exact or short or group
@@ -74,7 +95,12 @@ def select_names(names: Iterable[str], processes: Sequence[Process]) -> list[str
     return [p.name for p in processes if p.name in selected]
 
 
-def _unknown(name: str, processes: Sequence[Process]) -> str:
+def _has_member(process: Selectable, name: str) -> bool:
+    """Whether a component of that name, with or without its prefix, runs in the process."""
+    return any(name in (member, member.rpartition("/")[2]) for member in process.member_names)
+
+
+def _unknown(name: str, processes: Sequence[Selectable]) -> str:
     components = [p.name for p in processes]
     groups = list(dict.fromkeys(p.group for p in processes if p.group))
     hint = did_you_mean(name, components + groups) or f"it has {', '.join(components + groups)}"

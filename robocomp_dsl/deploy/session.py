@@ -21,7 +21,9 @@ from robocomp_dsl.deploy.log_store import LogStore
 from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.deploy.status import ProcessStatus
+from robocomp_dsl.deploy.supervisor.fork_server import ForkServer, is_forkable
 from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
+from robocomp_dsl.deploy.supervisor.reaper import DEPLOYMENT_VARIABLE
 from robocomp_dsl.deploy.supervisor.reaper_process import ReaperProcess
 from robocomp_dsl.deploy.supervisor.requests import ComponentRequests, Replan
 from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, Supervisor
@@ -139,6 +141,9 @@ async def _run(
     if store:
         store.attach(log)
     supervisor.receive_notifications(lock.folder)
+    if any(map(is_forkable, plan.processes)):
+        token = {DEPLOYMENT_VARIABLE: supervisor.token}
+        supervisor.starter = ForkServer(token, supervisor.log)
     watch = loop.create_task(reaper.watch(supervisor.log))
     outcome = Outcome(1, "rcdeploy itself failed")
     try:

@@ -21,6 +21,7 @@ HUNG = "hung"
 _COLOURS = {READY: "32", FAILED: "1;31", HUNG: "1;31", BACKOFF: "33", UNKNOWN: "33", STARTING: "36"}
 _COLUMNS = (
     "NAME",
+    "HOST",
     "STATE",
     "LIFE",
     "MACHINE",
@@ -32,7 +33,7 @@ _COLUMNS = (
     "OVERRUNS",
     "",
 )
-_OPTIONAL_COLUMNS = ("MACHINE", "OVERRUNS")
+_OPTIONAL_COLUMNS = ("HOST", "MACHINE", "OVERRUNS")
 """Columns that are left out if all their cells are empty."""
 _EMPTY = "-"
 
@@ -44,7 +45,9 @@ class ProcessStatus:
     `up_s`: seconds since its start; `cpu`: 1.0 is one core; `memory` in bytes. `life` is the
     lifecycle state; `machine` are the active states of the state machine, outer ones first, if they
     were queried. `note` is the reason for the state. `overruns` counts cycles that exceeded the
-    period; `hang` is the latest hang, also of an earlier process of the component.
+    period; `hang` is the latest hang, also of an earlier process of the component. `host` is empty
+    if the supervisor of this machine runs it. `members` are the components of a group in one
+    process, each with its lifecycle state.
     """
 
     name: str
@@ -59,12 +62,18 @@ class ProcessStatus:
     machine: tuple[str, ...] = ()
     overruns: int = 0
     hang: HangReport | None = None
+    host: str = ""
+    members: tuple[tuple[str, str], ...] = ()
 
     @staticmethod
     def from_dict(fields: Mapping[str, Any]) -> ProcessStatus:
         """The inverse of `as_dict`."""
         hang = HangReport.from_fields(fields["hang"]) if fields.get("hang") else None
-        return ProcessStatus(**{**fields, "machine": tuple(fields["machine"]), "hang": hang})
+        lists = {
+            "machine": tuple(fields["machine"]),
+            "members": tuple((name, life) for name, life in fields.get("members", ())),
+        }
+        return ProcessStatus(**{**fields, **lists, "hang": hang})
 
     def as_dict(self) -> dict[str, Any]:
         """The fields as a dictionary, for JSON."""
@@ -96,7 +105,8 @@ class SimulatedTime:
 
 def format_table(rows: Sequence[ProcessStatus], width: int, *, colours: bool) -> list[str]:
     """`rows` as text lines of at most `width` characters, with a header."""
-    cells = [_COLUMNS, *(_cells(row) for row in rows)]
+    shown = [each for row in rows for each in (row, *_member_rows(row))]
+    cells = [_COLUMNS, *map(_cells, shown)]
     columns = [
         i
         for i, name in enumerate(_COLUMNS)
@@ -106,9 +116,14 @@ def format_table(rows: Sequence[ProcessStatus], width: int, *, colours: bool) ->
     lines = []
     for position, line in enumerate(cells):
         text = "  ".join(line[i].ljust(widths[i]) for i in columns).rstrip()[:width]
-        style = "2" if position == 0 else _COLOURS.get(rows[position - 1].state, "")
+        style = "2" if position == 0 else _COLOURS.get(shown[position - 1].state, "")
         lines.append(f"\x1b[{style}m{text}\x1b[0m" if colours and style else text)
     return lines
+
+
+def _member_rows(row: ProcessStatus) -> list[ProcessStatus]:
+    """A line for each component of a group in one process; what is of the process is above."""
+    return [ProcessStatus(f"  {name}", "", life=life) for name, life in row.members]
 
 
 def _has_values(cells: Sequence[tuple[str, ...]], column: int) -> bool:
@@ -116,7 +131,10 @@ def _has_values(cells: Sequence[tuple[str, ...]], column: int) -> bool:
 
 
 def _cells(row: ProcessStatus) -> tuple[str, ...]:
-    states = (row.name, row.state, row.life or _EMPTY, ", ".join(row.machine) or _EMPTY)
+    machine = ", ".join(row.machine) or _EMPTY
+    states = (row.name, row.host or _EMPTY, row.state, row.life or _EMPTY, machine)
+    if not row.state:  # a component of a group
+        return (*states, *[""] * (len(_COLUMNS) - len(states)))
     if not row.pid:
         empty = (_EMPTY, _EMPTY, str(row.restarts), _EMPTY, _EMPTY, _EMPTY)
         return (*states, *empty, row.note)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import select
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -37,12 +37,13 @@ class SupervisorEngine:
 
     def components(self) -> list[str]:
         """See `Engine`; raises `EngineError`."""
-        return [str(row["name"]) for row in self._status()["rows"]]
+        rows = self._status()["rows"]
+        return [name for row in rows for name in (str(row["name"]), *_members(row))]
 
     def answering_components(self) -> list[str]:
         """See `Engine`."""
         status = self._status()
-        names = [str(row["name"]) for row in status["rows"]]
+        names = [name for row in status["rows"] for name in _members(row) or (str(row["name"]),)]
         return [name for name in names if name not in status.get("programs", ())]
 
     def status(self) -> DeploymentStatus:
@@ -95,3 +96,8 @@ def _handle(pid: int) -> int | None:
         return os.pidfd_open(pid)
     except OSError:
         return None
+
+
+def _members(row: Mapping[str, Any]) -> list[str]:
+    """The components of a group that is one process."""
+    return [name for name, _ in row.get("members", ())]

@@ -108,6 +108,11 @@ class Host(Record):
     ssh_port: int = 0
 
     @property
+    def machine(self) -> str:
+        """A name of its machine: "" for all hosts on this machine."""
+        return "" if self.is_local else self.name
+
+    @property
     def is_local(self) -> bool:
         """Whether the host is the machine on which the deployment is started.
 
@@ -134,13 +139,13 @@ class Instance(Record):
     """One component of the deployment.
 
     In a group, `name` is prefixed with the names of the groups: `arm-motor`; `group` is then `arm`,
-    otherwise empty. `host` is `UNPLACED` until a host is chosen by `placement`; `host_span` is
-    where the file says it. `files` are further files and folders that it needs. With a `prefix`,
-    the name of the running component is `full_name`: `left/arm-motor`. `config` is None if the
-    component uses its own `etc/config.yaml` or searches for a file of the `context` or for
-    `config_name` when it starts; `settings` are the `set` lines with dotted keys; `executable` is a
-    command line run in the component's folder; `port` 0: any free port; `watchdog_s` None: as in
-    the component; `middleware` "": as in the component.
+    otherwise empty; `process` is the group with `inprocess` around it. `host` is `UNPLACED` until a
+    host is chosen by `placement`; `host_span` is where the file says it. `files` are further files
+    and folders that it needs. With a `prefix`, the name of the running component is `full_name`:
+    `left/arm-motor`. `config` is None if the component uses its own `etc/config.yaml` or searches
+    for a file of the `context` or for `config_name` when it starts; `settings` are the `set` lines
+    with dotted keys; `executable` is a command line run in the component's folder; `port` 0: any
+    free port; `watchdog_s` None: as in the component; `middleware` "": as in the component.
     `is_program`: a program that is no component; its `component` has no ports, and the path of the
     DDSL file.
     """
@@ -168,6 +173,7 @@ class Instance(Record):
     own_ports: tuple[OwnPort, ...] = ()
     doc: str = ""
     group: str = ""
+    process: str = ""
     host_span: Span | None = None
     is_program: bool = False
     placement: Placement = Placement()
@@ -242,7 +248,9 @@ class Group(Record):
     """A group of components; only its `exports` are visible outside.
 
     `name` is as in `Instance.group`, outer groups first: `arm-hand`; `instances` are the names of
-    its instances, including those of nested groups.
+    its instances, including those of nested groups. `definition` is the name of its definition, if
+    it is an instance of one. `prefix` includes those of the groups around it. `inprocess`: it and
+    all groups in it are one process, which `restart`, `start_timeout_s` and `limits` are about.
     """
 
     name: str
@@ -250,6 +258,17 @@ class Group(Record):
     exports: tuple[Export, ...]
     span: Span
     doc: str = ""
+    definition: str = ""
+    prefix: str = ""
+    inprocess: bool = False
+    restart: Restart = Restart()
+    start_timeout_s: float = START_TIMEOUT_S
+    limits: ResourceLimits = ResourceLimits()
+
+    @property
+    def full_name(self) -> str:
+        """Its name with its prefix, which is that of its process."""
+        return f"{self.prefix}/{self.name}" if self.prefix else self.name
 
 
 class Clock(Record):

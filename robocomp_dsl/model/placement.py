@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from robocomp_dsl.record import Record, ValueRecord
-
-if TYPE_CHECKING:
-    from robocomp_dsl.model.deployment import Host
 
 LABEL, LOAD = "label", "load"
 
@@ -15,13 +10,13 @@ LABEL, LOAD = "label", "load"
 class Placement(ValueRecord):
     """How the host of an instance is chosen; `kind` is `LABEL`, `LOAD`, or "" if it is given.
 
-    `candidates` are the possible hosts, in order of declaration. Instances with the same `unit`
-    (the group that says where they run, or their own name) run on the same host.
+    `candidates` are the names of the possible hosts, in order of declaration. Instances with the
+    same `unit` (the group that says where they run, or their own name) run on the same host.
     """
 
     kind: str = ""
     label: str = ""
-    candidates: tuple[Host, ...] = ()
+    candidates: tuple[str, ...] = ()
     unit: str = ""
 
     def __str__(self) -> str:
@@ -30,8 +25,7 @@ class Placement(ValueRecord):
             return f"on label {self.label}"
         if self.kind != LOAD:
             return ""
-        among = f"label {self.label}" if self.label else ", ".join(h.name for h in self.candidates)
-        return f"by load on {among}"
+        return f"by load on {f'label {self.label}' if self.label else ', '.join(self.candidates)}"
 
 
 class LabelledHosts(Record):

@@ -11,8 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from robocomp_dsl.model.component import Port
+from robocomp_dsl.model.component import Port, Role
 from robocomp_dsl.model.deployment import Connection, External, Instance
+
+IN_PROCESS = "inproc"
+"""The middleware of connections within one process."""
+_FOUND_BY_OTHERS = (Role.IMPLEMENTS, Role.PUBLISHES)
 
 
 def declared_middlewares(instance: Instance, port: Port, deployment: str) -> tuple[str, ...]:
@@ -69,4 +73,7 @@ def port_middlewares(
             named = connection_middleware(connection)
             own = (named,) if named else declared or shared_middlewares(connection, deployment)
             names.update(dict.fromkeys(own))
+    if IN_PROCESS in names and port.role in _FOUND_BY_OTHERS:
+        # The others are for tools, and for what is connected later.
+        names = dict.fromkeys((IN_PROCESS, *names, *default))
     return tuple(names) or default

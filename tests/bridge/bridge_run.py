@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from robocomp_dsl.runtime import types as rt
+from robocomp_dsl.runtime.command_line import create_parser, parse_settings
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.lifecycle import LifecycleState
 from robocomp_dsl.runtime.component.runner import Runner
@@ -17,7 +18,6 @@ from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.connection.component_ports import ComponentPorts, open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
-from robocomp_dsl.runtime.entry_point import _parser, _settings
 from tests.cli.rcgen_run import Rcgen
 from tests.support.waiting import wait_until
 
@@ -57,7 +57,7 @@ def load_worker(folder: Path) -> Any:
 def running(folder: Path, *options: str) -> Iterator[Any]:
     """The worker of a generated bridge while it runs in this process."""
     worker = load_worker(folder)
-    settings = _settings(_parser(worker.SPEC).parse_args(options), worker.SPEC)
+    settings = parse_settings(create_parser(worker.SPEC).parse_args(options), worker.SPEC)
     params = worker.SPEC.parameters.load(None, settings.overrides)
     runner = Runner(worker, params, settings)
     runner.start()

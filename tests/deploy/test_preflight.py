@@ -279,12 +279,13 @@ Deployment app
 """
 
 
-def test_check_rejects_remote_host_at_its_name(folder: Path) -> None:
-    checked = check_app(folder, app=PLACED.replace("WHERE", "robot"))
-    message = "`left-arm` is on `robot` (10.0.0.2); remote hosts are not supported yet"
-    unused = "app.ddsl:7:10 RC573 no component runs on the host `desk`"
-    assert finding_lines(checked, folder) == [unused, f"app.ddsl:8:19 RC907 {message}"]
-    assert not checked.ready
+def test_check_leaves_remote_programs_to_their_host(folder: Path) -> None:
+    app = PLACED.replace("WHERE", "robot").replace('"abc";', '"abc"; executable "no-such-program";')
+    checked = check_app(folder, app=app)
+    assert checked.ready
+    assert checked.hosted
+    assert checked.plan
+    assert checked.plan.domain == "app"
 
 
 def test_check_accepts_groups_on_local_hosts(folder: Path) -> None:

@@ -107,7 +107,7 @@ def test_killed_rcdeploy_lets_components_finalize(app_folder: Path, socket_folde
         app.until("all 2 components are ready")
         token = f"{status()['domain']}.{app.process.pid}"
         running = reaper.find_processes(token)
-        assert len(running) == 2
+        assert len(running) == 3  # with the fork server
         app.process.kill()
         app.end()
         reaper._wait_for_exit(running, 30)

@@ -174,6 +174,11 @@ hi def link ddsl_import_value ddslValue
 hi def link ddsl_import_name ddslName
 hi def link ddsl_import_field ddslField
 syn region ddsl_import matchgroup=ddslKeyword start=/\<import\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_import_inner,ddsl_import_value,ddsl_import_name,ddsl_import_field
+hi def link ddsl_inprocess_inner ddslModifier
+hi def link ddsl_inprocess_value ddslValue
+hi def link ddsl_inprocess_name ddslName
+hi def link ddsl_inprocess_field ddslField
+syn region ddsl_inprocess matchgroup=ddslKeyword start=/\<inprocess\>\%(\s*\%(;\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_inprocess_inner,ddsl_inprocess_value,ddsl_inprocess_name,ddsl_inprocess_field
 syn match ddsl_keep_inner contained /\.\@<!\<all\>\.\@!\%(\s*\%(;\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_keep_inner contained /\.\@<!\<last\>\.\@!\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/
 hi def link ddsl_keep_inner ddslModifier

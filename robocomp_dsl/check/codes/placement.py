@@ -101,3 +101,23 @@ Right:
     };
 """,
 )
+
+LOCKSTEP_OVER_HOSTS = Code(
+    "RC577",
+    Severity.WARNING,
+    "lock-step over several hosts may lose components",
+    """\
+In lock-step each step waits for the components on all hosts, so it takes a round trip through the
+network. If a link is cut for longer than the step limit, its components time out. With `lost drop`
+(the default) the others continue without them, and the run is not reproducible; with `lost stop`
+the deployment fails instead.
+
+Risky, where the components are on two hosts:
+
+    clock sim from body lockstep;
+
+Better:
+
+    clock sim from body lockstep lost stop;
+""",
+)

@@ -7,15 +7,18 @@ capabilities only.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from robocomp_dsl.check.codes import connections as codes
+from robocomp_dsl.check.ddsl.host_connections import needs_hosts_connected
+from robocomp_dsl.check.ddsl.sender_monitors import check_sender_monitors
 from robocomp_dsl.check.literals import join_names
+from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
-from robocomp_dsl.diagnostics import Code, Note, Report
-from robocomp_dsl.model.component import Port
-from robocomp_dsl.model.deployment import Connection, External, Instance, Qos
+from robocomp_dsl.diagnostics import Code, Fix, Note, Report
+from robocomp_dsl.model.component import Component, Port
+from robocomp_dsl.model.deployment import UNPLACED, Connection, External, Host, Instance, Qos
 from robocomp_dsl.model.interface import Pattern
 from robocomp_dsl.model.port_middlewares import (
     connection_middleware,
@@ -62,14 +65,19 @@ def check_deployment_middleware(
 
 
 def check_carriers(
-    connections: Sequence[Connection], deployment: str, known: KnownMiddlewares, report: Report
+    connections: Sequence[Connection],
+    deployment: str,
+    hosts: Mapping[str, Host],
+    known: KnownMiddlewares,
+    report: Report,
 ) -> None:
     """Check every connection; `deployment` is the middleware of the file, or empty."""
     for connection in connections:
         _check_topic_qos(connection, report)
         if not _is_plain(connection, deployment):
-            _check(connection, deployment, known, report)
-    _check_sender_monitors(connections, report)
+            between_hosts = needs_hosts_connected(connection, hosts)
+            _check(connection, deployment, known, report, between_hosts=between_hosts)
+    check_sender_monitors(connections, report)
 
 
 def _is_plain(connection: Connection, deployment: str) -> bool:
@@ -96,6 +104,8 @@ def _check(
     deployment: str,
     known: KnownMiddlewares,
     report: Report,
+    *,
+    between_hosts: bool,
 ) -> None:
     if _contradicts_external(connection, report):
         return
@@ -108,18 +118,43 @@ def _check(
         description = known.describe(name)
         if description is None:
             return  # it cannot be loaded: nothing is known of it
-        found = list(_problems(connection, name, description.capabilities))
+        found = list(_problems(connection, name, description.capabilities, between_hosts))
         if not found:
             return
         problems = problems or found
-    able = _able(lambda other: not any(_problems(connection, "", other)), known)
+    able = _able(lambda other: not any(_problems(connection, "", other, between_hosts)), known)
+    fix = _replace_middleware(connection, able)
     for problem in problems:
         report.add(
             problem.code,
             connection.middleware_span or connection.span,
             problem.message,
-            help=f"{join_names(able)} can carry it" if able else "",
+            help=_can_carry(connection, able),
+            fix=fix if problem is problems[0] else None,
         )
+
+
+def _can_carry(connection: Connection, able: Sequence[str]) -> str:
+    if not able:
+        return ""
+    text = f"{join_names(able)} can carry it"
+    if connection.middleware_span or connection.implied:
+        return text
+    ends = f"{connection.source.name}.{connection.source_port.name} -> "
+    ends += f"{connection.target.name}.{connection.target_port.name}"
+    return f"{text}: `connect {ends} over {_preferred(able)};`"
+
+
+def _preferred(able: Sequence[str]) -> str:
+    """The middleware that a component uses by default, if it is among `able`."""
+    default = Component.defaults["middleware"]
+    return default if default in able else able[0]
+
+
+def _replace_middleware(connection: Connection, able: Sequence[str]) -> Fix | None:
+    if connection.middleware_span is None or not able:
+        return None
+    return replace_fix(connection.middleware_span, _preferred(able))
 
 
 def _able(can: Callable[[Capabilities], bool], known: KnownMiddlewares) -> list[str]:
@@ -164,8 +199,10 @@ def _report_none_shared(connection: Connection, deployment: str, report: Report)
     )
 
 
-def _problems(connection: Connection, name: str, capabilities: Capabilities) -> Iterator[_Problem]:
-    yield from _reach_problems(connection, name, capabilities)
+def _problems(
+    connection: Connection, name: str, capabilities: Capabilities, between_hosts: bool
+) -> Iterator[_Problem]:
+    yield from _reach_problems(connection, name, capabilities, between_hosts)
     ends = (
         (connection.source, connection.source_port),
         (connection.target, connection.target_port),
@@ -204,24 +241,30 @@ def _ros_problems(port: Port, subject: str) -> Iterator[_Problem]:
 
 
 def _reach_problems(
-    connection: Connection, name: str, capabilities: Capabilities
+    connection: Connection, name: str, capabilities: Capabilities, between_hosts: bool
 ) -> Iterator[_Problem]:
     code = codes.UNSUITABLE_MIDDLEWARE
-    hosts = {connection.source.host.address, connection.target.host.address}
-    external = isinstance(connection.source, External) or isinstance(connection.target, External)
-    if not capabilities.between_processes:
+    ends = (connection.source, connection.target)
+    in_one_process = bool(ends[0].process) and ends[0].process == ends[1].process
+    if not capabilities.between_processes and not in_one_process:
         message = f"`{name}` cannot connect processes, and each component is a process"
         yield _Problem(code, message)
-    elif len(hosts) > 1 and connection.middleware and not external | capabilities.between_hosts:
+    elif between_hosts and not capabilities.between_hosts:
         message = (
-            f"`{name}` connects components of one machine; `{connection.source.name}` and "
-            f"`{connection.target.name}` are on two"
+            f"`{name}` connects components of one machine; `{connection.source.name}` runs "
+            f"{_where(connection.source)}, `{connection.target.name}` {_where(connection.target)}"
         )
         yield _Problem(code, message)
     if connection.source_port.role.is_topic and not capabilities.topics:
         yield _Problem(code, f"`{name}` has no topics")
     if not connection.source_port.role.is_topic and not capabilities.services:
         yield _Problem(code, f"`{name}` has no services")
+
+
+def _where(instance: Instance) -> str:
+    if instance.host is UNPLACED:
+        return f"on one of {join_names(list(instance.placement.candidates))}"
+    return f"on `{instance.host.name}`" if instance.host.machine else "on this machine"
 
 
 def required_qos(qos: Qos, *, is_topic: bool) -> Iterator[str]:
@@ -257,26 +300,3 @@ def _check_topic_qos(connection: Connection, report: Report) -> None:
                 f"`{connection.source_port.interface.name}` is a service here",
                 help="remove it",
             )
-
-
-def _check_sender_monitors(connections: Sequence[Connection], report: Report) -> None:
-    """Report publishers with different monitors: a message is sent once for all subscribers."""
-    first: dict[tuple[int, int], Connection] = {}
-    for connection in connections:
-        if not connection.source_port.role.is_topic:
-            continue
-        key = (id(connection.source), id(connection.source_port))
-        earlier = first.setdefault(key, connection)
-        if _sender_monitors(earlier) != _sender_monitors(connection):
-            name = f"{connection.source.name}.{connection.source_port.name}"
-            report.add(
-                codes.MONITOR,
-                connection.span,
-                f"all connections of `{name}` need the same monitors `at sender`",
-                notes=[Note(earlier.span, "this connection has others")],
-                help="a message is sent once for all subscribers; write `at receiver`",
-            )
-
-
-def _sender_monitors(connection: Connection) -> list[object]:
-    return [monitor for monitor in connection.monitors if monitor.position == "sender"]

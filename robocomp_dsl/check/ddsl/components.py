@@ -17,6 +17,7 @@ from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.syntax.ast.base import Import
 
+SUFFIXES = (".cdsl", ".ddsl")
 CheckComponent = Callable[[Path, Workspace, Report], Component | None]
 """All passes of a CDSL file."""
 
@@ -41,7 +42,7 @@ def imported_components(
     statements: dict[str, Import] = {}
     files: dict[str, Import] = {}
     for statement in imports:
-        path = find_referenced_file(statement.path, (".cdsl",), beside, workspace, report)
+        path = find_referenced_file(statement.path, SUFFIXES, beside, workspace, report)
         if path is None:
             imported.broken = True
             continue
@@ -49,6 +50,8 @@ def imported_components(
         if earlier is not statement:
             _report_repeated(statement, earlier, report)
             continue
+        if path.suffix.lower() == ".ddsl":
+            continue  # definitions of groups, see `definitions`
         component = _checked(path, workspace, check, imported, report)
         if component is not None:
             first = statements.setdefault(component.name, statement)

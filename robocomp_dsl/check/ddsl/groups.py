@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from robocomp_dsl.check.codes import deployment as codes
+from robocomp_dsl.check.ddsl.one_process import with_process
 from robocomp_dsl.check.ddsl.scopes import DeploymentScope, resolve_port
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.check.workspace.imports import replace_fix
@@ -23,15 +24,27 @@ def resolve_groups(
 ) -> tuple[Group, ...]:
     """All groups, outer groups first."""
     return tuple(
-        Group(
-            inner.path,
-            tuple(inner.members()),
-            _exports(inner, known, report),
-            inner.tree.name.span,
-            inner.tree.doc,
+        with_process(
+            _group(inner, known, report),
+            inner,
+            [known[name] for name in inner.members() if name in known],
+            report,
         )
         for inner in scope.descendants
         if inner.path
+    )
+
+
+def _group(scope: DeploymentScope, known: Mapping[str, Instance], report: Report) -> Group:
+    definition = scope.tree.definition if isinstance(scope.tree, ast.Group) else None
+    return Group(
+        scope.path,
+        tuple(scope.members()),
+        _exports(scope, known, report),
+        scope.tree.name.span,
+        scope.tree.doc,
+        definition.text if definition else "",
+        scope.full_prefix,
     )
 
 

@@ -12,9 +12,9 @@ from pathlib import Path
 
 from robocomp_dsl.check.cdsl.middlewares import find_middleware
 from robocomp_dsl.check.codes import deployment as codes
-from robocomp_dsl.check.ddsl.components import ImportedComponents
 from robocomp_dsl.check.ddsl.contexts import config_search_of
 from robocomp_dsl.check.ddsl.copied_files import copied_files
+from robocomp_dsl.check.ddsl.definitions import DefinitionFiles
 from robocomp_dsl.check.ddsl.devices import resolve_devices
 from robocomp_dsl.check.ddsl.own_ports import own_ports_of
 from robocomp_dsl.check.ddsl.places import DEFAULT_PLACE, InstancePlace
@@ -31,7 +31,7 @@ from robocomp_dsl.check.workspace.referenced_files import find_referenced_file
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.model.component import Component
-from robocomp_dsl.model.deployment import Host, Instance
+from robocomp_dsl.model.deployment import UNPLACED, Instance
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Name, Text
@@ -42,13 +42,12 @@ _CONFIGURATIONS = (".yaml", ".yml", ".toml", "")
 
 
 class InstanceContext(ValueRecord):
-    """The context for resolving an instance. `path` is the path of the DDSL file.
+    """The context for resolving an instance.
 
     `places` are those of the instances by qualified name.
     """
 
-    path: Path
-    imported: ImportedComponents
+    definitions: DefinitionFiles
     places: Mapping[str, InstancePlace]
     workspace: Workspace
 
@@ -58,12 +57,12 @@ def resolve_instance(
 ) -> Instance | None:
     """Resolve the instance of `tree`; None if its component is unknown."""
     component = (
-        program_component(tree, around.path, report)
+        program_component(tree, tree.span.source.path, report)
         if tree.is_program
         else _component(tree.component or tree.name, around, report)
     )
     place = around.places.get(tree.name.text, DEFAULT_PLACE)
-    files = copied_files(tree.files, around.path, report)
+    files = copied_files(tree.files, tree.span.source.path, report)
     config = _config(tree.config, around, report)
     context, searched = config_search_of(tree, report)
     prefix = prefix_of(tree.prefix, report)
@@ -112,11 +111,14 @@ def report_shared_ports(
     trees: Sequence[ast.Instance], places: Mapping[str, InstancePlace], report: Report
 ) -> None:
     """Report two instances that would listen on the same port of the same machine."""
-    first: dict[tuple[Host, float], ast.Instance] = {}
+    first: dict[tuple[str, float], ast.Instance] = {}
     for tree in trees:
         if tree.port is None or not tree.port.value:
             continue
-        key = (places.get(tree.name.text, DEFAULT_PLACE).host, tree.port.value)
+        host = places.get(tree.name.text, DEFAULT_PLACE).host
+        if host is UNPLACED:
+            continue
+        key = (host.machine, tree.port.value)
         earlier = first.setdefault(key, tree)
         if earlier is not tree and earlier.port is not None:
             report.add(
@@ -129,12 +131,13 @@ def report_shared_ports(
 
 
 def _component(name: Name, context: InstanceContext, report: Report) -> Component | None:
-    known = context.imported.components
+    imported = context.definitions.components_of(name)
+    known = imported.components
     if name.text in known:
         return known[name.text]
     by_file = next((node for node in known.values() if node.path.stem == name.text), None)
     guess = by_file.name if by_file else nearest(name.text, known)
-    if context.imported.broken and guess is None:
+    if imported.broken and guess is None:
         return None
     report.add(
         codes.UNKNOWN_COMPONENT,
@@ -154,7 +157,8 @@ def _config(written: Text | None, context: InstanceContext, report: Report) -> P
     """The absolute path of a configuration file: components run in other folders."""
     if written is None:
         return None
-    path = find_referenced_file(written, _CONFIGURATIONS, context.path, context.workspace, report)
+    beside = written.span.source.path
+    path = find_referenced_file(written, _CONFIGURATIONS, beside, context.workspace, report)
     return Path(os.path.abspath(path)) if path else None  # noqa: PTH100 - keeps symbolic links
 
 

@@ -7,7 +7,6 @@ the events that the classes set.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from robocomp_dsl.check.codes import connections as codes
@@ -41,12 +40,11 @@ _PYTHON_TYPES = {
 
 
 class ConnectionContext(Record):
-    """The context for resolving connections. `path` is the path of the DDSL file.
+    """The context for resolving connections.
 
     `events` are the events that each monitor sets; None: they cannot be read from its code.
     """
 
-    path: Path
     workspace: Workspace
     events: dict[Monitor, frozenset[str] | None]
 
@@ -62,7 +60,8 @@ def resolve_monitors(
 def _monitor(
     tree: ast.Monitor, port: Port, context: ConnectionContext, report: Report
 ) -> Monitor | None:
-    path = find_referenced_file(tree.file, (".py",), context.path, context.workspace, report)
+    beside = tree.file.span.source.path
+    path = find_referenced_file(tree.file, (".py",), beside, context.workspace, report)
     if path is None:
         return None
     default = "receiver" if port.role.is_topic else "sender"

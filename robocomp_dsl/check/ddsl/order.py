@@ -21,7 +21,8 @@ def start_order(scope: DeploymentScope, report: Report) -> list[str]:
     """The qualified names of all instances in start order; groups stay together."""
     items: list[Instance] = [*scope.instances.values(), *map(_as_instance, scope.groups.values())]
     items.sort(key=lambda item: item.span.start)
-    farther = scope.outer.visible_names() if scope.outer else []
+    closed = scope.outer is None or scope.definitions
+    farther = [] if closed or scope.outer is None else scope.outer.visible_names()
     order: list[str] = []
     for name in _sorted(items, farther, report):
         group = scope.groups.get(name)

@@ -16,7 +16,7 @@ from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.model.component import Component
-from robocomp_dsl.model.deployment import Instance, OwnPort
+from robocomp_dsl.model.deployment import UNPLACED, Instance, OwnPort
 from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Name, Text
@@ -56,7 +56,7 @@ def report_shared_addresses(
     first: dict[tuple[str, str, str], tuple[str, Span]] = {}
     for instance, own in _fixed_ports(instances):
         span = spans.get((instance.name, own.port))
-        if span is None:
+        if span is None or instance.host is UNPLACED:
             continue
         name = f"{instance.name}.{own.port}"
         key = (instance.host.address, own.middleware, own.address)

@@ -137,7 +137,7 @@ class _PlaceResolver:
         placement = Placement(
             kind=LOAD if place.by_load else LABEL,
             label=place.label.text if place.label else "",
-            candidates=candidates,
+            candidates=tuple(host.name for host in candidates),
             unit=place.unit,
         )
         host = candidates[0] if len(candidates) == 1 else UNPLACED

@@ -35,8 +35,8 @@ def readiness_of(written: ast.ReadyWhen | None, report: Report) -> Readiness:
     )
 
 
-def limits_of(tree: ast.Instance, report: Report) -> ResourceLimits:
-    """The limits of an instance."""
+def limits_of(tree: ast.Instance | ast.Group, report: Report) -> ResourceLimits:
+    """The limits of an instance or a group."""
     return ResourceLimits(
         _memory_of(tree.memory, report),
         _cpu_of(tree.cpu, report),

@@ -7,10 +7,13 @@ deployment. The components of a group are visible outside only through its expor
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from robocomp_dsl.check.codes import deployment as codes
+from robocomp_dsl.check.ddsl.definitions import DefinitionFiles
+from robocomp_dsl.check.ddsl.expansion import expand, settings_of_members, with_settings
+from robocomp_dsl.check.ddsl.prefixes import prefix_of
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.check.names.duplicates import report_duplicate, unique_by_name
 from robocomp_dsl.check.workspace.imports import replace_fix
@@ -26,12 +29,16 @@ NAME_SEPARATOR = "-"
 class DeploymentScope:
     """A group, or the deployment itself (`path` ""), with what is declared in it.
 
-    Only the deployment has `externals`.
+    Only the deployment has `externals`. `tree` is the expanded tree of a group. `definitions` are
+    those that an instance follows; names of its surroundings are not visible in it. `prefix` is
+    its own.
     """
 
     path: str
     tree: ast.Deployment | ast.Group
     outer: DeploymentScope | None
+    definitions: tuple[ast.Group, ...] = ()
+    prefix: str = ""
     instances: dict[str, ast.Instance] = field(default_factory=dict)
     groups: dict[str, DeploymentScope] = field(default_factory=dict)
     exports: dict[str, ast.Export] = field(default_factory=dict)
@@ -44,6 +51,31 @@ class DeploymentScope:
         while nested is not None:
             yield nested
             nested = nested.outer
+
+    @property
+    def visible_scopes(self) -> Iterator[DeploymentScope]:
+        """The scopes whose names can be used in this one, innermost first."""
+        for nested in self.ancestors:
+            yield nested
+            if nested.definitions:
+                return
+
+    @property
+    def full_prefix(self) -> str:
+        """The prefixes of the scope and its enclosing scopes, joined."""
+        return "/".join(reversed([scope.prefix for scope in self.ancestors if scope.prefix]))
+
+    @property
+    def is_unknown(self) -> bool:
+        """Whether it is an instance without a definition, which was reported."""
+        return isinstance(self.tree, ast.Group) and bool(self.tree.definition) > bool(
+            self.definitions
+        )
+
+    @property
+    def has_unknown_groups(self) -> bool:
+        """Whether an instance without a definition is in this scope."""
+        return any(nested.is_unknown for nested in self.descendants)
 
     @property
     def descendants(self) -> Iterator[DeploymentScope]:
@@ -64,7 +96,7 @@ class DeploymentScope:
 
     def lookup(self, name: str) -> DeploymentScope | str | None:
         """The group, or the qualified name of the instance, called `name` in this scope."""
-        for nested in self.ancestors:
+        for nested in self.visible_scopes:
             if name in nested.instances:
                 return nested.qualified_name(name)
             if name in nested.groups:
@@ -73,25 +105,53 @@ class DeploymentScope:
 
     def visible_names(self) -> list[str]:
         """All names that can be used in this scope."""
-        return [name for nested in self.ancestors for name in (*nested.instances, *nested.groups)]
+        scopes = self.visible_scopes
+        return [name for nested in scopes for name in (*nested.instances, *nested.groups)]
 
 
-def scopes_of(tree: ast.Deployment, report: Report) -> DeploymentScope:
+def scopes_of(
+    tree: ast.Deployment, definitions: DefinitionFiles, report: Report
+) -> DeploymentScope:
     """The scope of a deployment, with all its groups."""
-    return _filled(DeploymentScope("", tree, None), report)
+    return _filled(DeploymentScope("", tree, None), (), (), definitions, report)
 
 
-def _filled(scope: DeploymentScope, report: Report) -> DeploymentScope:
+def _filled(
+    scope: DeploymentScope,
+    settings: Sequence[ast.Setting],
+    followed: tuple[ast.Group, ...],
+    definitions: DefinitionFiles,
+    report: Report,
+) -> DeploymentScope:
+    """Fill a scope; `settings` are those of outer groups, `followed` the definitions around it."""
     tree = scope.tree
-    for instance in unique_by_name(tree.instances, "component", report):
-        scope.instances[instance.name.text] = instance
-    for group in unique_by_name(tree.groups, "group", report):
+    instances = unique_by_name(tree.instances, "component", report)
+    groups = unique_by_name(tree.groups, "group", report)
+    members = [i.name.text for i in instances] + [group.name.text for group in groups]
+    outer: dict[str, list[ast.Setting]] = {}
+    if isinstance(tree, ast.Group):
+        outer = settings_of_members(tree, settings, members, report)
+    for instance in instances:
+        name = instance.name.text
+        scope.instances[name] = with_settings(instance, outer.get(name, ()))
+    siblings = {group.name.text: group for group in groups if group.definition is None}
+    for group in groups:
         name = group.name.text
         if name in scope.instances:
             report_duplicate(group.name, scope.instances[name].name, "component", report)
             continue
-        inner = DeploymentScope(scope.qualified_name(name), group, scope)
-        scope.groups[name] = _filled(inner, report)
+        expanded, chain = expand(group, siblings, followed, definitions, report)
+        inner = DeploymentScope(
+            scope.qualified_name(name),
+            expanded,
+            scope,
+            chain,
+            prefix_of(expanded.prefix, report),
+        )
+        if group.definition is None or chain:
+            inherited = outer.get(name, ())
+            _filled(inner, inherited, (*followed, *chain), definitions, report)
+        scope.groups[name] = inner
     if isinstance(tree, ast.Deployment):
         _externals(scope, tree, report)
     if isinstance(tree, ast.Group):
@@ -120,74 +180,6 @@ def _exports(scope: DeploymentScope, tree: ast.Group, report: Report) -> None:
             report_duplicate(nested.port, earlier.port, "export", report)
 
 
-def flatten(scope: DeploymentScope) -> list[tuple[ast.Instance, str]]:
-    """All instances with their groups, with qualified names as if there were no groups.
-
-    `component` is always set, and `after` lists qualified names, including the dependencies of the
-    group.
-    """
-    resolved: list[tuple[ast.Instance, str]] = []
-    for nested in scope.descendants:
-        waits = _group_dependencies(nested)
-        for tree in nested.instances.values():
-            own = [
-                name for dependency in tree.after for name in _resolve_reference(dependency, nested)
-            ]
-            renamed = ast.Instance(
-                tree.span,
-                Name(tree.name.span, nested.qualified_name(tree.name.text)),
-                tree.component or tree.name,
-                tree.host,
-                tree.config,
-                tree.context,
-                tree.from_,
-                tree.prefix,
-                tree.settings,
-                tree.devices,
-                tree.attachments,
-                tree.actions,
-                tree.environment,
-                tree.executable,
-                tree.port,
-                (*own, *waits),
-                tree.restart,
-                tree.ready,
-                tree.ready_when,
-                tree.memory,
-                tree.cpu,
-                tree.watchdog,
-                tree.middleware,
-                tree.own_ports,
-                tree.doc,
-                tree.is_program,
-                tree.label,
-                tree.place,
-                tree.cores,
-                tree.realtime,
-                tree.files,
-            )
-            resolved.append((renamed, nested.path))
-    return resolved
-
-
-def _group_dependencies(scope: DeploymentScope) -> list[Name]:
-    """The dependencies of the enclosing groups, which apply to all their components."""
-    return [
-        name
-        for nested in scope.ancestors
-        if isinstance(nested.tree, ast.Group) and nested.outer is not None
-        for dependency in nested.tree.after
-        for name in _resolve_reference(dependency, nested.outer)
-    ]
-
-
-def _resolve_reference(dependency: Name, scope: DeploymentScope) -> list[Name]:
-    found = scope.lookup(dependency.text)
-    if isinstance(found, DeploymentScope):
-        return [Name(dependency.span, nested) for nested in found.members()]
-    return [] if found is None else [Name(dependency.span, found)]
-
-
 def resolve_port(ref: ast.PortRef, scope: DeploymentScope, report: Report) -> ast.PortRef | None:
     """Resolve `ref` to a port of an instance, through exports if it refers to a group.
 
@@ -200,7 +192,8 @@ def resolve_port(ref: ast.PortRef, scope: DeploymentScope, report: Report) -> as
         return ast.PortRef(ref.span, Name(ref.instance.span, found), ref.port)
     export = found.exports.get(ref.port.text)
     if export is None:
-        _not_exported(ref, found, report)
+        if not found.is_unknown:
+            _not_exported(ref, found, report)
         return None
     if _is_export_cycle(export, found):
         report.add(
@@ -221,7 +214,7 @@ def _resolve_external(
     ref: ast.PortRef, scope: DeploymentScope, report: Report
 ) -> ast.PortRef | None:
     """`ref` if it refers to an external program; else None, which is reported."""
-    if ref.instance.text in [*scope.ancestors][-1].externals:
+    if ref.instance.text in [*scope.visible_scopes][-1].externals:
         return ref
     _unknown(ref.instance, scope, report)
     return None
@@ -243,42 +236,8 @@ def _is_export_cycle(export: ast.Export, scope: DeploymentScope) -> bool:
     return False
 
 
-def connections_of(scope: DeploymentScope, report: Report) -> tuple[list[ast.Connection], set[str]]:
-    """All connections with qualified names, and the names of instances with an invalid one."""
-    resolved: list[ast.Connection] = []
-    faulty: set[str] = set()
-    for nested in scope.descendants:
-        for tree in nested.tree.connections:
-            ends = [resolve_port(end, nested, report) for end in (tree.source, tree.target)]
-            source, target = ends
-            if source is None or target is None:
-                faulty.update(end.instance.text for end in ends if end)
-            else:
-                resolved.append(
-                    ast.Connection(tree.span, source, target, tree.over, tree.qos, tree.monitors)
-                )
-    return resolved, faulty
-
-
-def arbitrations_of(scope: DeploymentScope, report: Report) -> list[ast.Arbitration]:
-    """All arbitrations with qualified names."""
-    resolved: list[ast.Arbitration] = []
-    for nested in scope.descendants:
-        for tree in nested.tree.arbitrations:
-            target = resolve_port(tree.target, nested, report)
-            sources = [(resolve_port(c.source, nested, report), c) for c in tree.candidates]
-            if target is not None:
-                candidates = tuple(
-                    ast.Candidate(candidate.span, source, candidate.condition)
-                    for source, candidate in sources
-                    if source is not None
-                )
-                resolved.append(ast.Arbitration(tree.span, target, candidates))
-    return resolved
-
-
 def _unknown(name: Name, scope: DeploymentScope, report: Report) -> None:
-    root = [*scope.ancestors][-1]
+    root = [*scope.visible_scopes][-1]
     known = [*scope.visible_names(), *root.externals]
     guess = nearest(name.text, known)
     hidden = next(

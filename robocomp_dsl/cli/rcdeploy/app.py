@@ -14,11 +14,14 @@ from typing import TYPE_CHECKING
 
 import click
 
+from robocomp_dsl.cli import options
+from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.deploy.plan import Plan, plan
 from robocomp_dsl.diagnostics import Diagnostic, Report
 
 if TYPE_CHECKING:
     from robocomp_dsl.deploy.instances import RunningDeployment
+    from robocomp_dsl.model.deployment import Deployment
 
 app = click.argument("app", metavar="APP.ddsl", type=click.Path(readable=False, path_type=Path))
 
@@ -28,11 +31,16 @@ group = click.option("--group", metavar="NAME", help="Only the components of thi
 
 @dataclass(frozen=True, slots=True)
 class CheckedDeployment:
-    """`plan` is None if the text has errors; `ready`: it can run on this machine."""
+    """`plan` is None if the text has errors; `ready`: this machine can start it.
+
+    `hosted`: a component runs on another machine.
+    """
 
     findings: Sequence[Diagnostic]
     plan: Plan | None
     ready: bool
+    deployment: Deployment | None = None
+    hosted: bool = False
 
 
 def check(
@@ -45,7 +53,8 @@ def check(
     """Check a deployment: first the text and its imports, then the requirements on this machine.
 
     With `group` only that group is checked; raises `click.BadParameter` for an unknown one. Without
-    `domain` the plan has the domain of the deployment if it runs, otherwise a new domain.
+    `domain` the plan has the domain of the deployment if it runs, otherwise a new domain; over
+    several hosts the domain has the name of the deployment.
     """
     from robocomp_dsl.check.passes import check_ddsl  # noqa: PLC0415 - `rcdeploy status` needs no parser
     from robocomp_dsl.check.workspace.workspace import Workspace  # noqa: PLC0415
@@ -64,18 +73,31 @@ def check(
         except NoSuchGroup as error:
             raise click.BadParameter(str(error), param_hint="--group") from None
     running = name or (f"{deployment.name}-{group}" if group else deployment.name)
-    instance = _running_instance(running, path)
+    hosted = any(not instance.host.is_local for instance in deployment.instances)
+    instance = None if hosted else _running_instance(running, path)
+    new_domain = running if hosted else f"{running}-{secrets.token_hex(3)}"
     plan_ = plan(
         deployment,
         name=running,
-        domain=domain or (instance.domain if instance else f"{running}-{secrets.token_hex(3)}"),
+        domain=domain or (instance.domain if instance else new_domain),
         interpreter=sys.executable,
     )
     # If it is running already, then it is itself that has its ports.
-    report.extend(preflight(deployment, plan_, ports=instance is None))
+    report.extend(preflight(deployment, plan_, ports=not hosted and instance is None))
     if not report.has_errors:
         report.extend(find_outdated(deployment, workspace.middlewares.names))
-    return CheckedDeployment(report.sorted(), plan_, ready=not report.has_errors)
+    ready = not report.has_errors
+    return CheckedDeployment(report.sorted(), plan_, ready, deployment, hosted)
+
+
+def require_hosts(checked: CheckedDeployment, app: Path) -> None:
+    """Print the findings of the text; raise `CliError` unless it can run on several hosts."""
+    options.print_findings(checked.findings, "full", sys.stderr)
+    if checked.plan is None or not checked.ready:
+        raise CliError(EXIT_FINDINGS)
+    if not checked.hosted:
+        text = f"{app}: all components are on this machine; `rcdeploy up` runs them"
+        raise CliError(EXIT_FINDINGS, text)
 
 
 def _running_instance(name: str, path: Path) -> RunningDeployment | None:

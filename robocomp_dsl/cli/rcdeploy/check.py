@@ -23,5 +23,5 @@ def command(app: Path, folders: tuple[Path, ...], output_format: str) -> None:
     if checked.plan is None or not checked.ready:
         raise CliError(EXIT_FINDINGS)
     if output_format == "full":
-        count = len(checked.plan.processes)
+        count = len(checked.plan.components)
         print(f"{app}: {count} component{'s' if count != 1 else ''} can be started")

@@ -10,6 +10,8 @@ import sys
 import time
 from collections import deque
 from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -21,6 +23,9 @@ from robocomp_dsl.deploy import control, instances
 from robocomp_dsl.deploy.log_filter import LEVELS, LogFilter, parse_since
 from robocomp_dsl.deploy.log_runs import read_records
 from robocomp_dsl.deploy.logs import RCDEPLOY, LogRecord, format_record
+
+if TYPE_CHECKING:
+    from robocomp_dsl.deploy.hosts.registry import HostedDeployment
 
 
 @click.command()
@@ -67,6 +72,18 @@ def command(
     if list_runs:
         print("\n".join(describe_runs(which)))
         return
+    if (hosted := _hosted(which)) is not None:
+        if run:
+            text = f"`{hosted.name}` runs on hosts, which keep one log; use --since"
+            raise CliError(EXIT_FINDINGS, text)
+        from robocomp_dsl.cli.rcdeploy import host_logs  # noqa: PLC0415 - loads asyncssh
+
+        known = [name for name, _ in hosted.places]
+        names = {running.resolve_component(name, known) for name in component}
+        chosen = LogFilter(names, level or "", _since(since), _pattern(grep))
+        printer = _Printer(as_json=output_format == "json", follow=follow)
+        host_logs.print_logs(hosted, chosen, printer.print, last=last, follow=follow)
+        return
     selected = select_run(which, run)
     chosen = LogFilter(
         components=_components(component, selected),
@@ -86,6 +103,31 @@ def command(
             printer.print(record)
 
 
+def _hosted(which: str | None) -> HostedDeployment | None:
+    """The deployment over hosts that is meant; also one that was stopped, if it is named."""
+    from robocomp_dsl.deploy.hosts import registry  # noqa: PLC0415 - not for --help
+
+    entries = list(registry.registered())
+    if which is None:
+        entries = [entry for entry in entries if not entry.is_stopped]
+        supervised = instances.running() if entries else []
+        return entries[0] if len(entries) == 1 and not supervised else None
+    return next((e for e in entries if which == e.name or _is_file(which, e.path)), None)
+
+
+def follow_hosted(name: str) -> None:
+    """Show what a deployment over hosts logs from now on, until Ctrl-C. Raises `CliError`."""
+    from robocomp_dsl.cli.rcdeploy import host_logs  # noqa: PLC0415 - loads asyncssh
+
+    if (hosted := _hosted(name)) is not None:
+        printer = _Printer(as_json=False, follow=True)
+        host_logs.print_logs(hosted, LogFilter(), printer.print, last=0, follow=True)
+
+
+def _is_file(which: str, path: str) -> bool:
+    return str(Path(which).resolve()) == path
+
+
 class _Printer:
     """Prints records as lines; the column of the names grows with the names."""
 
@@ -96,7 +138,7 @@ class _Printer:
         self._width = 0
 
     def print(self, record: LogRecord) -> None:
-        self._width = max(self._width, len(record.component))
+        self._width = max(self._width, len(record.label))
         text = (
             record.to_json()
             if self._as_json

@@ -105,20 +105,22 @@ def _process(process: Process) -> dict[str, Any]:
         },
         "port": process.port,
         "devices": list(process.devices),
+        "members": [_process(member) for member in process.members],
     }
 
 
 def as_text(plan: Plan) -> Iterator[str]:
     """The plan as text with shell commands."""
     over = f" over {', '.join(plan.middlewares)}" if plan.middlewares else ""
-    count = len(plan.processes)
+    count = len(plan.components)
     yield f"{plan.name}: {count} component{'s' * (count != 1)}{over}"
     yield f"domain {plan.domain}"
     yield f"clock {plan.clock}"
+    by_name = {process.name: process for process in plan.processes}
     for wave, names in enumerate(batches({p.name: set(p.after) for p in plan.processes}), start=1):
-        for process in (p for p in plan.processes if p.name in names):
+        for name in names:
             yield ""
-            yield from _described(process, wave)
+            yield from _described(by_name[name], wave)
     for program in plan.externals:
         port, connected = program.format()
         yield from ("", port, f"   {connected}")
@@ -143,6 +145,9 @@ def _described(process: Process, wave: int) -> Iterator[str]:
     yield f"{wave}. {process.name} ({process.component}){group}{place}{after}"
     ready = " ".join(filter(None, ["ready", format_readiness(process.readiness)]))
     yield f"   {ready} within {process.start_timeout_s:g} s, restart {restart}"
+    for member in process.members:
+        after = f" after {', '.join(member.after)}" if member.after else ""
+        yield f"   runs {member.name} ({member.component}){after}"
     if limits := format_limits(process.limits):
         yield f"   {limits}"
     yield from (

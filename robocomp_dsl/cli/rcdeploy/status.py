@@ -98,12 +98,14 @@ def _with_component_state(
     from robocomp_dsl.deploy import component_queries  # noqa: PLC0415 - loads a middleware
 
     states = component_queries.fetch_states(
-        engine.domain, [row.name for row in rows if row.life], CALL_TIMEOUT_S
+        engine.domain, [row.name for row in rows if row.life and not row.members], CALL_TIMEOUT_S
     )
     return [_row(row, states.get(row.name)) for row in rows]
 
 
 def _row(row: status.ProcessStatus, state: ComponentState | None) -> status.ProcessStatus:
+    if row.members:
+        return row  # a group answers nothing; its components do
     if state is None:
         silent = f"does not answer within {CALL_TIMEOUT_S:g} s"
         return replace(row, note=row.note or silent) if row.life else row

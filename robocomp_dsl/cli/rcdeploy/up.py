@@ -91,6 +91,9 @@ MEGABYTE = 1_000_000
     metavar="DAYS",
     help="Older logs are deleted.",
 )
+@click.option(
+    "-f", "--follow", is_flag=True, help="On several hosts: show the logs until Ctrl-C afterwards."
+)
 def command(
     app: Path,
     folders: tuple[Path, ...],
@@ -98,9 +101,13 @@ def command(
     name: str | None,
     domain: str | None,
     show_traceback: bool,
+    follow: bool,
     **how: Any,
 ) -> None:
     """Check the deployment, start its components in order, and supervise them.
+
+    With components on other hosts: check all hosts, copy what they lack, start what differs, wait
+    until all are ready, and return; systemd supervises them.
 
     The exit code is 0 if it was stopped on request or all components exited successfully, 1 for
     findings or a failed component, 141 if the reader of its output has gone.
@@ -114,6 +121,14 @@ def command(
         raise CliError(
             EXIT_FINDINGS, f"{app}: nothing was started ({options.summary(checked.findings)})"
         )
+    if checked.hosted:
+        from robocomp_dsl.cli.rcdeploy import up_hosts  # noqa: PLC0415 - loads asyncssh
+
+        up_hosts.reject_options(how)
+        up_hosts.command(checked, follow=follow)
+        return
+    if follow:
+        raise click.UsageError("--follow is for several hosts; on one machine `up` shows the logs")
     if reason := unsupported_reason():
         raise CliError(EXIT_FINDINGS, reason)
     try:
@@ -162,7 +177,7 @@ def _run(
     from robocomp_dsl.runtime.errors import MiddlewareError  # noqa: PLC0415
 
     try:
-        reservation = reserve(plan.domain, (process.name for process in plan.processes), plan.name)
+        reservation = reserve(plan.domain, (each.name for each in plan.components), plan.name)
     except (NameTaken, UnsafeFolder, OSError) as error:
         return Outcome(EXIT_FINDINGS, str(error))
     try:
@@ -172,7 +187,7 @@ def _run(
         return Outcome(EXIT_FINDINGS, str(error))
     terminal = Terminal(
         sys.stdout,
-        [process.name for process in plan.processes],
+        list(plan.names),
         live=output_format == "text" and (sys.stdout.isatty() if live is None else live),
         colours=options.use_colours(sys.stdout),
         as_json=output_format == "json",
@@ -188,7 +203,7 @@ def _run(
 
 def _open_log_store(plan: Plan, limits: LogLimits) -> LogStore | None:
     """Where the logs of this run are stored; None, and a warning, where they cannot be."""
-    components = tuple(process.name for process in plan.processes)
+    components = plan.names
     path = str(plan.path.resolve())
     run = LogRun(plan.name, path, plan.domain, os.getpid(), time.time(), components)
     try:

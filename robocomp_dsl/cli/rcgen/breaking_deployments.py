@@ -104,7 +104,7 @@ def _with_deployment_name(deployment: Deployment | None, finding: Diagnostic) ->
 def _values(deployment: Deployment, earlier: Deployment) -> Iterator[Diagnostic]:
     """Configuration values that the current components reject and the earlier ones accepted."""
     was = {instance.name: instance.component for instance in earlier.instances}
-    processes = plan(deployment, name="", domain="", interpreter="python3").processes
+    processes = plan(deployment, name="", domain="", interpreter="python3").components
     before = _rejected_values(deployment, processes, was)
     for place, found in _rejected_values(deployment, processes, {}).items():
         if place not in before:

@@ -176,7 +176,7 @@ class Agent:
 
     def control(self, operation: str, units: list[str]) -> dict[str, Any]:
         """`systemctl VERB UNITS`; for long jobs without waiting."""
-        for unit in units:
+        for unit in units if operation in ("start", "stop", "restart") else ():
             self.operations[unit] = self.operations.get(unit, 0) + 1
             if unit in self.watched:
                 self.watched[unit] = None

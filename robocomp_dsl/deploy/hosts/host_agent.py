@@ -16,7 +16,6 @@ from typing import Any, TypeAlias
 
 from robocomp_dsl.deploy.hosts.connection import HostConnection, HostProcess
 from robocomp_dsl.deploy.hosts.errors import HostError
-
 from robocomp_dsl.deploy.hosts.host_report import HostReport, UnitState
 from robocomp_dsl.deploy.units import names
 

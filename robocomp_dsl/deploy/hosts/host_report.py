@@ -14,7 +14,22 @@ from robocomp_dsl.deploy import status
 
 _KILLED = ("2", "3")
 """`ExecMainCode`: CLD_KILLED and CLD_DUMPED of siginfo.h."""
-_TIMEOUT_NOTES = {"start": "not ready in time", "stop": "did not exit in time and was killed"}
+_STATES = {("active", "exited"): status.EXITED, ("activating", "auto-restart"): status.BACKOFF}
+_ACTIVE_STATES = {
+    "active": status.READY,
+    "reloading": status.READY,
+    "activating": status.STARTING,
+    "deactivating": status.STOPPING,
+    "failed": status.FAILED,
+}
+_RESULTS = {
+    "timeout": "not ready in time",
+    "watchdog": "hangs: no sign of life from its watchdog",
+    "oom-kill": "used more memory than its limit",
+    "protocol": "ended before it was ready",
+    "resources": "the host lacks resources to start it",
+}
+"""`Result` of systemd.service(5)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,22 +86,10 @@ class UnitState:
     @property
     def state(self) -> str:
         """The state as in `status.py`."""
-        match self.active, self.sub:
-            case "active", "exited":
-                return status.EXITED
-            case (("active" | "reloading"), _):
-                return status.READY
-            case "activating", "auto-restart":
-                return status.BACKOFF
-            case "activating", _:
-                return status.STARTING
-            case "deactivating", sub if "watchdog" in sub:
-                return status.HUNG
-            case "deactivating", _:
-                return status.STOPPING
-            case "failed", _:
-                return status.FAILED
-        return status.WAITING if self.has_job else status.EXITED
+        if self.active == "deactivating" and "watchdog" in self.sub:
+            return status.HUNG
+        idle = status.WAITING if self.has_job else status.EXITED
+        return _STATES.get((self.active, self.sub)) or _ACTIVE_STATES.get(self.active, idle)
 
     @property
     def note(self) -> str:
@@ -100,23 +103,13 @@ class UnitState:
         return self._failure()
 
     def _failure(self) -> str:
-        match self.result:
-            case "exit-code" | "signal" | "core-dump":
-                return self._exit()
-            case "timeout":
-                where = "stop" if self.sub.startswith(("stop", "final")) else "start"
-                return _TIMEOUT_NOTES[where]
-            case "watchdog":
-                return "hangs: no sign of life from its watchdog"
-            case "oom-kill":
-                return "used more memory than its limit"
-            case "start-limit-hit":
-                return f"failed too often: {self._exit()}"
-            case "protocol":
-                return "ended before it was ready"
-            case "resources":
-                return "the host lacks resources to start it"
-        return self.result
+        if self.result in ("exit-code", "signal", "core-dump"):
+            return self._exit()
+        if self.result == "start-limit-hit":
+            return f"failed too often: {self._exit()}"
+        if self.result == "timeout" and self.sub.startswith(("stop", "final")):
+            return "did not exit in time and was killed"
+        return _RESULTS.get(self.result, self.result)
 
     def _exit(self) -> str:
         if self.code in _KILLED:

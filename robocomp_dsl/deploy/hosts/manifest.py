@@ -24,7 +24,8 @@ class HostedComponent:
     """A component or program on a host.
 
     `after`: components that are ready before it starts; `stops_after`: those that have exited
-    before it stops. `tree` is the hash of its files.
+    before it stops. `tree` is the hash of its files; `member_names` are the components of a group
+    that runs in one process.
     """
 
     name: str
@@ -36,6 +37,7 @@ class HostedComponent:
     group: str = ""
     is_program: bool = False
     tree: str = ""
+    member_names: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,8 +98,8 @@ class HostManifest:
 
 
 def _component(fields: Mapping[str, Any]) -> HostedComponent:
-    after, stops_after = tuple(fields["after"]), tuple(fields["stops_after"])
-    return HostedComponent(**{**fields, "after": after, "stops_after": stops_after})
+    lists = ("after", "stops_after", "member_names")
+    return HostedComponent(**{**fields, **{key: tuple(fields[key]) for key in lists}})
 
 
 def host_as_dict(host: Host) -> dict[str, Any]:

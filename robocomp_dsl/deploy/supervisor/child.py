@@ -9,20 +9,17 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import os
+import select
 import signal
-import subprocess
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import IO
 
 from robocomp_dsl.deploy.logs import LineSplitter, LogRecord
 from robocomp_dsl.deploy.plan import Process
 from robocomp_dsl.deploy.supervisor.hang_watch import HangWatch
-from robocomp_dsl.deploy.supervisor.notify import FOREIGN_VARIABLES
-from robocomp_dsl.deploy.supervisor.reaper import DEPLOYMENT_VARIABLE
+from robocomp_dsl.deploy.supervisor.process_start import StartedProcess
 from robocomp_dsl.deploy.supervisor.resource_usage import ResourceUsage
-from robocomp_dsl.deploy.supervisor.scheduling import with_scheduling
-from robocomp_dsl.runtime.component.supervisor_pipe import HEARTBEAT_VARIABLE
 
 _CHUNK = 64 * 1024
 
@@ -30,44 +27,35 @@ _CHUNK = 64 * 1024
 class ChildProcess:
     """A running process. `exited` is set after all its output was emitted; then `code` is valid.
 
-    A code of -N means that signal N terminated it. Raises `OSError` if it cannot be started.
+    A code of -N means that signal N terminated it.
     """
 
     def __init__(
         self,
         process: Process,
-        token: str,
+        started: StartedProcess,
         emit: Callable[[LogRecord], None],
-        variables: Mapping[str, str],
         hang_watch: HangWatch,
     ) -> None:
         self._emit = emit
         self._loop = asyncio.get_running_loop()
-        environment = {
-            "PYTHONUNBUFFERED": "1",
-            **{k: v for k, v in os.environ.items() if k not in FOREIGN_VARIABLES},
-            **variables,
-            **dict(process.env),
-            DEPLOYMENT_VARIABLE: token,
-            HEARTBEAT_VARIABLE: str(hang_watch.write_end),
-        }
         self._hang_watch = hang_watch
-        self._popen = with_scheduling(
-            process.limits, lambda: _start(process, environment, hang_watch.write_end)
-        )
-        hang_watch.watch(self._popen.pid)
-        self.pid = self._popen.pid
+        self._started = started
+        self.pid = started.pid
+        hang_watch.watch(self.pid)
         self.started = time.monotonic()
         self.usage = ResourceUsage(self.pid)
         self.exited = asyncio.Event()
         self.code = 0
         self._open: dict[int, tuple[IO[bytes], LineSplitter]] = {}
-        for name, stream in (("stdout", self._popen.stdout), ("stderr", self._popen.stderr)):
-            assert stream is not None  # noqa: S101 - both are pipes
+        members = [member.name for member in process.members]
+        for name, stream in (("stdout", started.stdout), ("stderr", started.stderr)):
             os.set_blocking(stream.fileno(), False)
-            self._open[stream.fileno()] = (stream, LineSplitter(process.name, name))
+            self._open[stream.fileno()] = (stream, LineSplitter(process.name, name, members))
             self._loop.add_reader(stream.fileno(), self._read_chunk, stream.fileno())
         self._handle = os.pidfd_open(self.pid)
+        self._has_exited = False
+        self._finishing: asyncio.Task[None] | None = None
         self._loop.add_reader(self._handle, self._on_exit)
 
     def signal(self, number: signal.Signals) -> None:
@@ -78,13 +66,11 @@ class ChildProcess:
     @property
     def has_exited(self) -> bool:
         """Whether the process has exited, also if the event loop does not know it yet."""
-        if self.exited.is_set():
-            return True
-        flags = os.WEXITED | os.WNOHANG | os.WNOWAIT
-        try:
-            return os.waitid(os.P_PID, self.pid, flags) is not None
-        except ChildProcessError:
-            return True
+        if not self._has_exited:
+            poll = select.poll()
+            poll.register(self._handle, select.POLLIN)
+            self._has_exited = bool(poll.poll(0))
+        return self._has_exited
 
     def owns(self, pid: int) -> bool:
         """Whether `pid` is this process or one of its children."""
@@ -111,11 +97,15 @@ class ChildProcess:
 
     def _on_exit(self) -> None:
         # The process is still a zombie, so its group id cannot be reused yet.
+        self._has_exited = True
         self._loop.remove_reader(self._handle)
         os.close(self._handle)
         self._hang_watch.close()
         self.signal(signal.SIGKILL)
-        self.code = self._popen.wait()
+        self._finishing = self._loop.create_task(self._finish())
+
+    async def _finish(self) -> None:
+        self.code = await self._started.exit_code()
         for descriptor in list(self._open):
             while self._read_chunk(descriptor):
                 pass
@@ -130,21 +120,6 @@ class ChildProcess:
                 self._emit(record)
             stream.close()
         self._open.clear()
-
-
-def _start(
-    process: Process, environment: Mapping[str, str], heartbeats: int
-) -> subprocess.Popen[bytes]:
-    return subprocess.Popen(  # noqa: S603 - the command line is the user's own
-        process.argv,
-        cwd=process.cwd,
-        env=environment,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        start_new_session=True,
-        pass_fds=(heartbeats,),
-    )
 
 
 def describe_exit(code: int) -> str:

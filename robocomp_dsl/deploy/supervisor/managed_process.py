@@ -17,6 +17,8 @@ from robocomp_dsl.deploy.supervisor import lifecycle_monitor
 from robocomp_dsl.deploy.supervisor.child import ChildProcess, describe_exit
 from robocomp_dsl.deploy.supervisor.hang_watch import HangWatch
 from robocomp_dsl.deploy.supervisor.load_errors import LoadErrors
+from robocomp_dsl.deploy.supervisor.member_states import MemberStates
+from robocomp_dsl.deploy.supervisor.process_start import process_environment
 from robocomp_dsl.deploy.supervisor.restart import RestartDecision, decide_restart
 from robocomp_dsl.deploy.supervisor.supervisor_context import SupervisorContext
 from robocomp_dsl.deploy.supervisor.waiting import wait_any
@@ -60,10 +62,12 @@ class ManagedProcess:
         self._killed = False
         self._failure = ""
         self._starts_without_ready = 0
+        self._early_states: list[tuple[int, str]] = []
         self._hung_child: ChildProcess | None = None
         self._load_errors = LoadErrors()
         self._end_hung: asyncio.Task[None] | None = None
         self.hang: HangReport | None = None
+        self.member_states = MemberStates(member.name for member in process.members)
 
     def status(self) -> ProcessStatus:
         """The current status."""
@@ -75,6 +79,7 @@ class ManagedProcess:
                 restarts=len(self.restart_times),
                 note=self._note,
                 hang=self.hang,
+                members=tuple((member.name, "") for member in self.process.members),
             )
         child.usage.sample()
         return ProcessStatus(
@@ -88,11 +93,14 @@ class ManagedProcess:
             self._note,
             self._lifecycle_state,
             hang=self.hang,
+            members=self.member_states.as_pairs(),
         )
 
     def on_state_changed(self, pid: int, state: str) -> None:
         """Handle a state change that the monitor reports; events of earlier runs are ignored."""
         child = self.child
+        if child is None and self._state == status.STARTING:
+            self._early_states.append((pid, state))
         if child is None or self._state == status.STOPPING or not child.owns(pid):
             return
         self._lifecycle_state = state
@@ -199,19 +207,26 @@ class ManagedProcess:
             self._load_errors.observe(record)
             self.context.emit(record)
 
+        self._lifecycle_state = ""
+        self._early_states.clear()
+        self._transition_to(status.STARTING, "")
+        variables = process_environment(self.process, self.context.environment, self.context.token)
         try:
-            self.child = ChildProcess(
-                self.process, self.context.token, emit, self.context.environment, hang_watch
+            started = await self.context.starter.start(
+                self.process, variables, hang_watch.write_end
             )
         except OSError as error:
             hang_watch.close()
             self._note = f"cannot be started: {error.strerror or error}"
             return EXIT_NOT_FOUND
         self._started = True
-        self._lifecycle_state = ""
-        self._transition_to(status.STARTING, "")
-        child = self.child
+        child = self.child = ChildProcess(self.process, started, emit, hang_watch)
+        self.context.changed()
         self.context.on_started(self, child)
+        for pid, state in self._early_states:
+            self.on_state_changed(pid, state)
+        if self.stop_requested.is_set():
+            await self.terminate(self.context.grace_s)
         await wait_any(child.exited, self.ready, timeout=self.process.start_timeout_s)
         if self.ready.is_set() and not child.has_exited:
             self.was_ready, self._starts_without_ready = True, 0

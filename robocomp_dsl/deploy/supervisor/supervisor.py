@@ -24,6 +24,7 @@ from robocomp_dsl.deploy.supervisor.external_connections import ExternalConnecti
 from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
 from robocomp_dsl.deploy.supervisor.managed_process import KILL_TIMEOUT_S, ManagedProcess
 from robocomp_dsl.deploy.supervisor.notify import SOCKET_VARIABLE, NotifySocket
+from robocomp_dsl.deploy.supervisor.process_start import ExecutingStarter, ProcessStarter
 from robocomp_dsl.deploy.supervisor.process_watch import ProcessWatch, WatchedProcess
 from robocomp_dsl.deploy.supervisor.waiting import wait_any
 
@@ -75,6 +76,7 @@ class Supervisor:
         self.options = options
         self.grace_s = options.grace_s
         self.environment: dict[str, str] = {}
+        self.starter: ProcessStarter = ExecutingStarter()
         self.stopping = asyncio.Event()
         self._kill_now = asyncio.Event()
         self._reason, self._code = "", 0
@@ -82,6 +84,7 @@ class Supervisor:
         self._notify: NotifySocket | None = None
         self._watches: dict[str, ProcessWatch] = {}
         self._processes = {p.name: ManagedProcess(p, self) for p in plan.processes}
+        self._owners = _owners(plan)
         self.external_connections = ExternalConnections(plan.external_connections, self.log)
         self._tasks: set[asyncio.Task[None]] = set()
         self._requests = 0
@@ -154,6 +157,7 @@ class Supervisor:
             for task in (duration, stopping, *self._tasks):
                 task.cancel()
             self._monitor.close()
+            self.starter.close()
             if self._notify:
                 self._notify.close()
             await asyncio.to_thread(self.external_connections.close)
@@ -182,8 +186,14 @@ class Supervisor:
             self._all_exited.set_result(None)
 
     def _on_state_changed(self, name: str, pid: int, state: str) -> None:
-        if (process := self._processes.get(name)) is not None:
-            process.on_state_changed(pid, state)
+        owner = self._owners.get(name, name)
+        if (process := self._processes.get(owner)) is None:
+            return
+        if owner != name:
+            if process.child is None or not process.child.owns(pid):
+                return
+            state = process.member_states.update(name, pid, state)
+        process.on_state_changed(pid, state)
 
     async def _supervise(self, process: ManagedProcess) -> None:
         await process.run([self._processes[name] for name in process.process.after])
@@ -231,6 +241,7 @@ class Supervisor:
     def start_components(self, names: Iterable[str]) -> None:
         """Start components that are not active, as they are in `plan`; in order of `after`."""
         planned = {process.name: process for process in self.plan.processes}
+        self._owners |= _owners(self.plan)
         started = [ManagedProcess(planned[name], self, on_request=True) for name in names]
         self._processes |= {process.name: process for process in started}
         for process in started:
@@ -286,6 +297,11 @@ class Supervisor:
         if failed:
             return Outcome(1, f"failed: {', '.join(failed)}")
         return Outcome(self._code, self._reason or "all components exited")
+
+
+def _owners(plan: Plan) -> dict[str, str]:
+    """The processes of the components that share one, by component."""
+    return {member.name: process.name for process in plan.processes for member in process.members}
 
 
 def _may_be_started(process: ManagedProcess) -> bool:

@@ -6,6 +6,7 @@ from typing import Protocol
 
 from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.supervisor.child import ChildProcess
+from robocomp_dsl.deploy.supervisor.process_start import ProcessStarter
 from robocomp_dsl.deploy.supervisor.process_watch import WatchedProcess
 
 
@@ -15,6 +16,7 @@ class SupervisorContext(Protocol):
     token: str
     environment: dict[str, str]
     grace_s: float
+    starter: ProcessStarter
 
     def log(self, text: str, level: str = "INFO") -> None:
         """Log a message of rcdeploy."""

@@ -18,6 +18,7 @@ from robocomp_dsl.runtime.connection.connections_interface import ConnectionInfo
 from robocomp_dsl.runtime.connection.endpoint import NOBODY, Endpoint
 from robocomp_dsl.runtime.connection.peer_selection import matches
 from robocomp_dsl.runtime.connection.qos_merge import connection_qos, sender_qos
+from robocomp_dsl.runtime.connection.usable_records import is_reachable
 from robocomp_dsl.runtime.middleware import registry
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
@@ -80,7 +81,7 @@ class ConnectionReport:
     def _subscribers(self, at: Endpoint, default: ConnectionInfo) -> Iterator[ConnectionInfo]:
         found = self._ports.presence.registry.find("subscriber", at.interface.name)
         searching = (r for r in found if matches(_as_endpoint(at, r), at.component, at.port))
-        infos = [self._info(default, record, at) for record in searching]
+        infos = [self._info(default, record, at) for record in _usable_of_each(searching, at)]
         infos += [self._info(default, record, at) for record in at.external]
         if not infos:
             default.state = ConnectionState.Waiting
@@ -96,7 +97,7 @@ class ConnectionReport:
             return
         for peer in at.peers or ("",):
             own = replace(at, peers=(peer,) if peer else ())
-            found = [r for r in known if matches(own, r.component, r.port)]
+            found = _usable_of_each((r for r in known if matches(own, r.component, r.port)), at)
             for record in found:
                 info = self._info(default, record, at)
                 info.qos = format_qos(connection_qos(at, peer or record.name))
@@ -128,6 +129,13 @@ class ConnectionReport:
                 info.held += counts.held
 
 
+def _usable_of_each(records: Iterable[PortRecord], at: Endpoint) -> list[PortRecord]:
+    """The records of each peer, without those that do not matter because another one is usable."""
+    found = list(records)
+    usable = {record.name for record in found if not _obstacle(record, at)}
+    return [r for r in found if r.name not in usable or not _obstacle(r, at)]
+
+
 def _as_endpoint(at: Endpoint, record: PortRecord) -> Endpoint:
     return Endpoint(at.interface, record.component, record.port, record.peers)
 
@@ -139,9 +147,10 @@ def _obstacle(record: PortRecord, at: Endpoint) -> str:
     if at.middlewares and record.middleware and record.middleware not in at.middlewares:
         own = ", ".join(at.middlewares)
         return f"it is on {record.middleware}, this port on {own}"
-    if registry.known_capabilities(record.middleware) is None:
+    capabilities = registry.known_capabilities(record.middleware)
+    if capabilities is None:
         return f"the middleware {record.middleware} is not installed here"
-    return ""
+    return "" if is_reachable(record, capabilities) else "it is in another process"
 
 
 def _copy(info: ConnectionInfo) -> ConnectionInfo:

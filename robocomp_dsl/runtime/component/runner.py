@@ -27,12 +27,11 @@ from robocomp_dsl.runtime.component.lifecycle import (
     Lifecycle,
     LifecycleState,
 )
-from robocomp_dsl.runtime.component.sd_notify import SystemdNotifier
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.shown_parameters import ShownParameters
 from robocomp_dsl.runtime.component.spec import CalledPort, ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
-from robocomp_dsl.runtime.component.supervisor_pipe import SupervisorPipe
+from robocomp_dsl.runtime.component.supervision import Supervision, own_supervision
 from robocomp_dsl.runtime.component.user_errors import add_user_folder, describe_error, log_error
 from robocomp_dsl.runtime.component.watchdog import CallbackWatchdog
 from robocomp_dsl.runtime.component.wiring import Wiring
@@ -70,6 +69,7 @@ class Runner:
         params: Parameters,
         settings: RunSettings,
         clock: Clock | None = None,
+        supervision: Supervision | None = None,
     ) -> None:
         self.spec = component.SPEC
         self.name = settings.full_name(self.spec.name)
@@ -102,6 +102,7 @@ class Runner:
             settings.middleware or self.spec.middleware,
             host,
             used={name for port in self.spec.ports for name in self.middlewares_of(port)},
+            is_visible=bool(supervision and supervision.in_group),
         )
         owner = ComponentHandle(self.name, self.spec, self.fail, self._is_event_driven)
         self._clock_binding = create_clock(
@@ -109,7 +110,7 @@ class Runner:
         )
         clock = clock or self._clock_binding.clock
         self._ports = monitored_ports(self._clock_binding.ports, self.monitors, clock)
-        self.notifier = SystemdNotifier()
+        self.notifier, self._hangs, _ = supervision or own_supervision()
         self.worker = self._create_worker(component, clock)
         self.lifecycle = Lifecycle(
             self.worker,
@@ -128,7 +129,6 @@ class Runner:
         self._thread = threading.Thread(
             target=self._run, name=f"{self.name}.lifecycle", daemon=True
         )
-        self._supervisor_pipe = SupervisorPipe()
         limit = self._watchdog_limit()
         group = self.callback_group
         self.watchdog = (
@@ -153,7 +153,7 @@ class Runner:
         return min(limit or math.inf, self.notifier.watchdog_s * PING_MARGIN)
 
     def _on_beat(self, seconds: float) -> None:
-        self._supervisor_pipe.beat(seconds)
+        self._hangs.beat(seconds)
         if seconds:
             self.notifier.ping()
 
@@ -316,7 +316,7 @@ class Runner:
     def _on_hang(self, report: HangReport) -> None:
         """End the component; `finalize` runs beside the thread that hangs."""
         self.hang, self.abandoned = report, True
-        self._supervisor_pipe.report(report)
+        self._hangs.report(report)
         stack = "\n".join(report.stack)
         self.fail(f"watchdog: {report.summary()}\n{stack}")
 

@@ -40,14 +40,19 @@ from robocomp_dsl.runtime.presence.presence import Presence
 
 
 def open_ports(
-    middleware: str, context: ComponentContext, used: Iterable[str] = ()
+    middleware: str,
+    context: ComponentContext,
+    used: Iterable[str] = (),
+    *,
+    is_visible: bool = False,
 ) -> ComponentPorts:
     """The ports of one component that is on `middleware`, or whose ports are on those in `used`.
 
-    Raises `UnknownMiddleware`, or `MiddlewareError` when one cannot be opened.
+    `is_visible`: other processes see it, even if no middleware connects it with them. Raises
+    `UnknownMiddleware`, or `MiddlewareError` when one cannot be opened.
     """
     names = tuple(used) or (middleware,)
-    if any(registry.capabilities_of(name).between_processes for name in names):
+    if is_visible or any(registry.capabilities_of(name).between_processes for name in names):
         from robocomp_dsl.runtime.presence.zenoh_presence import open_presence  # noqa: PLC0415
 
         presence: Presence = open_presence(

@@ -117,13 +117,15 @@ class IncomingOperation:
         timeout: float,
         convert: Callable[[BaseException], BaseException],
         closed_error: type[Exception],
+        encode: Callable[[Any], Any] | None = None,
     ) -> Handle:
         """A function that calls the handler in the thread of its caller.
 
         It raises `Timeout` if the callback group has no slot within `timeout` s, `closed_error` if
-        the port was closed, and `convert(error)` for an error of the handler.
+        the port was closed, and `convert(error)` for an error of the handler or of `encode`, which
+        converts its result.
         """
-        counts, port, handler = self.counts, self._port, self._handler
+        counts, port, handler = self.counts, self._port, _encoding(self._handler, encode)
         group = port.callback_group
         acquire, release, holders = group.acquire, group.release, group.holders
         durations = counts.durations
@@ -178,6 +180,13 @@ class IncomingOperation:
             if self._throttle.allows("malformed"):
                 so_far = f"; {counts.malformed} so far" if counts.malformed > 1 else ""
                 log.warning("rejected a message for %s: %s%s%s", what, error, counts.suffix, so_far)
+
+
+def _encoding(handler: OperationCallable, encode: Callable[[Any], Any] | None) -> OperationCallable:
+    """`handler`, with its result converted by `encode`."""
+    if encode is None:
+        return handler
+    return lambda *arguments: encode(handler(*arguments))
 
 
 class IncomingPort:

@@ -16,6 +16,7 @@ from types import ModuleType
 from robocomp_dsl.monitors.class_check import check_monitor_class
 from robocomp_dsl.monitors.monitor_finding import MonitoredOperation
 from robocomp_dsl.runtime.component.interface import Operation
+from robocomp_dsl.runtime.component.thread_context import current_context
 from robocomp_dsl.runtime.component.user_errors import add_user_folder, describe_error
 from robocomp_dsl.runtime.connection.monitor import Monitor
 from robocomp_dsl.runtime.connection.monitor_settings import MonitorSettings
@@ -47,8 +48,10 @@ def load_monitor_class(settings: MonitorSettings, operations: Iterable[Operation
 
 
 def _load_module(file: Path) -> ModuleType:
-    """The module of a file, loaded once. Raises `MonitorError`."""
-    name = f"robocomp_monitor_{sha256(str(file).encode()).hexdigest()[:16]}"
+    """The module of a file, loaded once for each component. Raises `MonitorError`."""
+    context = current_context()
+    identity = f"{file}\0{context.name}" if context else str(file)
+    name = f"robocomp_monitor_{sha256(identity.encode()).hexdigest()[:16]}"
     if name in sys.modules:
         return sys.modules[name]
     folder = str(file.parent)
@@ -59,6 +62,8 @@ def _load_module(file: Path) -> ModuleType:
         raise MonitorError(f"{file} is no Python file; its name ends in .py")
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module  # dataclasses look for it
+    if context:
+        module.__dict__["__builtins__"] = context.builtins
     try:
         spec.loader.exec_module(module)
     except Exception as error:

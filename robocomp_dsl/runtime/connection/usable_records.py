@@ -20,10 +20,10 @@ def is_usable(at: Endpoint, record: PortRecord) -> bool:
     if at.middlewares and record.middleware not in at.middlewares:
         return False
     capabilities = registry.known_capabilities(record.middleware)
-    return capabilities is not None and _is_reachable(record, capabilities)
+    return capabilities is not None and is_reachable(record, capabilities)
 
 
-def _is_reachable(record: PortRecord, capabilities: Capabilities) -> bool:
+def is_reachable(record: PortRecord, capabilities: Capabilities) -> bool:
     """Whether the port is in this process, or its middleware connects processes.
 
     The address of a port that only its process can reach starts with the process id.

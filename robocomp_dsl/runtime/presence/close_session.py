@@ -20,6 +20,8 @@ import zenoh
 _GRACE_S = 0.05
 """A session without pending attempts closes, and sends what is queued, within a few ms."""
 _PERIOD_S = 0.01
+_MAX_PERIOD_S = 0.2
+"""Each look at all sockets doubles the time to the next one: many processes may stop together."""
 _DEADLINE_S = 5.0
 _DESCRIPTORS = (Path("/proc/self/fd"), Path("/dev/fd"))
 _UNIX_SOCKET = "unixsock-stream/"
@@ -34,9 +36,11 @@ def close_session(session: zenoh.Session, own: Path, port: int = 0) -> None:
     closing = _start_closing(session)
     closing.join(_GRACE_S)
     deadline = time.monotonic() + _DEADLINE_S
+    period = _PERIOD_S
     while closing.is_alive() and time.monotonic() < deadline:
         _shut_down_pending(own, port, linked)
-        closing.join(_PERIOD_S)
+        closing.join(period)
+        period = min(2 * period, _MAX_PERIOD_S)
 
 
 def close_client_session(session: zenoh.Session) -> None:

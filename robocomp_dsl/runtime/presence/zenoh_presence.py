@@ -113,6 +113,10 @@ class ZenohPresence:
 
     def close(self) -> None:
         """See `Presence`."""
+        # Others that stop at the same time would be reported one by one.
+        while self.opened.subscribers:
+            with contextlib.suppress(zenoh.ZError):
+                self.opened.subscribers.pop().undeclare()
         for record in list(self._tokens):
             self.withdraw(record)
         self.opened.close()

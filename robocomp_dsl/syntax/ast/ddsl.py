@@ -274,7 +274,10 @@ class Group(Node):
     """`group arm on robot { … };`: several components that appear as one from outside.
 
     They run on one host, given by `host`, `label` or `place`, unless they name a host themselves,
-    and start after those in `after`.
+    and start after those in `after`. A group of a `File` is a definition. `group left : arm { … };`
+    is an instance of the `definition` `arm`. The keys of `settings` start with a member:
+    `set motor.speed = 3;`. `inprocess` is the keyword; `restart`, `ready`, `memory`, `cpu`, `cores`
+    and `realtime` are of the one process.
     """
 
     name: Name
@@ -286,6 +289,16 @@ class Group(Node):
     groups: tuple[Group, ...] = ()
     arbitrations: tuple[Arbitration, ...] = ()
     doc: str = ""
+    definition: Name | None = None
+    prefix: Name | Text | None = None
+    settings: tuple[Setting, ...] = ()
+    inprocess: Name | None = None
+    restart: Restart | None = None
+    ready: Duration | None = None
+    memory: Memory | None = None
+    cpu: Number | None = None
+    cores: tuple[CoreRange, ...] = ()
+    realtime: Number | None = None
     label: Name | None = None
     place: Place | None = None
 
@@ -322,7 +335,7 @@ class Deployment(Node):
 
 
 class File(Node):
-    """One DDSL file; `deployment` is None if the file has none.
+    """One DDSL file; `deployment` is None if the file has none; `groups` are definitions.
 
     `complete` is False if syntax errors were reported, so parts may be missing.
     """
@@ -330,3 +343,4 @@ class File(Node):
     imports: tuple[Import, ...]
     deployment: Deployment | None
     complete: bool = True
+    groups: tuple[Group, ...] = ()

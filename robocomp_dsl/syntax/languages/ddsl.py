@@ -28,7 +28,7 @@ class DdslBuilder(InstancesBuilder, ConnectionsBuilder):
     """Builds the nodes of `ast.ddsl`."""
 
     ITEM_NAMES: ClassVar = {
-        "file_item": "`import` or `Deployment`",
+        "file_item": "`import`, `Deployment` or `group`",
         "deployment_item": "`component`, `program`, `connect`, `extern`, `arbitrate`, `host`, "
         "`group`, `middleware`, `clock`",
         "host_item": "`address`, `user`, `labels`, `port`",
@@ -39,7 +39,7 @@ class DdslBuilder(InstancesBuilder, ConnectionsBuilder):
         "monitor_item": "an argument of the monitor, such as `max = 3;`",
         "arbitration_item": "`from`",
         "group_item": "`component`, `program`, `connect`, `arbitrate`, `export`, `group`, "
-        "`after`, `place`",
+        "`after`, `place`, `prefix`, `set`, `inprocess`",
     }
 
     def start(self, span: Span, *items: Any) -> ast.File:
@@ -54,7 +54,10 @@ class DdslBuilder(InstancesBuilder, ConnectionsBuilder):
                 notes=(Note(deployments[0].name.span, "the first one is here"),),
             )
         deployment = deployments[0] if deployments else None
-        return ast.File(span, of_kind(Import, items), deployment, self.is_complete("Deployment"))
+        groups = of_kind(ast.Group, items)
+        self.has_block = self.has_block or bool(groups)
+        complete = self.is_complete("Deployment")
+        return ast.File(span, of_kind(Import, items), deployment, complete, groups)
 
     def deployment(self, span: Span, name: Name, *items: Any) -> ast.Deployment:
         """`Deployment name { … };`."""
@@ -111,6 +114,31 @@ class DdslBuilder(InstancesBuilder, ConnectionsBuilder):
         self, span: Span, name: Name, on: Name | ast.OnLabel | None, *items: Any
     ) -> ast.Group:
         """`group name on host { … };`."""
+        return self._group_node(span, name, None, on, items)
+
+    def group_instance(
+        self,
+        span: Span,
+        name: Name,
+        definition: Name,
+        on: Name | ast.OnLabel | None,
+        body: Any,
+    ) -> ast.Group:
+        """`group name : definition on host { … };`."""
+        return self._group_node(span, name, definition, on, body or ())
+
+    def group_body(self, _span: Span, *items: Any) -> tuple[Any, ...]:
+        """The items between the braces."""
+        return items
+
+    def _group_node(
+        self,
+        span: Span,
+        name: Name,
+        definition: Name | None,
+        on: Name | ast.OnLabel | None,
+        items: tuple[Any, ...],
+    ) -> ast.Group:
         host, label = split_on(on)
         return ast.Group(
             span,
@@ -123,8 +151,14 @@ class DdslBuilder(InstancesBuilder, ConnectionsBuilder):
             groups=of_kind(ast.Group, items),
             arbitrations=of_kind(ast.Arbitration, items),
             doc=self.doc(span),
+            definition=definition,
+            settings=of_kind(ast.Setting, items),
             **self.settings(items),
         )
+
+    def inprocess(self, span: Span) -> BlockSetting:
+        """`inprocess;`."""
+        return BlockSetting(span, "inprocess", Name(span, "inprocess"))
 
     def export(self, span: Span, port: Name, instance: Name, alias: Name | None) -> ast.Export:
         """`export Port from instance as Other;`."""

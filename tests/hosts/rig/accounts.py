@@ -46,7 +46,9 @@ def read_host_key(files: Path) -> str:
     return (files / "etc/ssh_host_ed25519_key.pub").read_text("ascii").strip()
 
 
-def write_sshd_config(files: Path, user: str, extra: Sequence[str] = ()) -> None:
+def write_sshd_config(
+    files: Path, user: str, extra: Sequence[str] = (), *, sftp: bool = True
+) -> None:
     """The settings of sshd: keys only, one user. For each keyword the first line counts."""
     lines = (
         *extra,
@@ -63,7 +65,7 @@ def write_sshd_config(files: Path, user: str, extra: Sequence[str] = ()) -> None
         "MaxStartups 100",
         "UseDNS no",
         "PrintMotd no",
-        "Subsystem sftp internal-sftp",
+        *(["Subsystem sftp internal-sftp"] if sftp else ()),
     )
     (files / "etc/sshd_config").write_text("".join(f"{line}\n" for line in lines), "utf-8")
 

@@ -60,7 +60,7 @@ def mount_file_system(settings: dict[str, Any]) -> None:
             bind(f"/proc/self/fd/{descriptor}", str(path))
     Path(SHARED_FILES).mkdir()
     bind(f"/proc/self/fd/{files}", SHARED_FILES)
-    mount_home(settings, f"/proc/self/fd/{home}")
+    mount_home(settings, home)
     for descriptor in (*opened, files, home):
         os.close(descriptor)
     for name in ("passwd", "group", "shadow", "hosts", "resolv.conf"):
@@ -70,12 +70,13 @@ def mount_file_system(settings: dict[str, Any]) -> None:
         bind("/dev/null", path)
 
 
-def mount_home(settings: dict[str, Any], source: str) -> None:
+def mount_home(settings: dict[str, Any], source: int) -> None:
     """The user's home: a folder of the test, or a small file system with a copy of it."""
+    folder = f"/proc/self/fd/{source}"
     target = Path("/home", settings["user"])
     target.mkdir()
     if not settings["disk_bytes"]:
-        bind(source, str(target))
+        bind(folder, str(target))
         return
     owner = f"uid={settings['uid']},gid={settings['uid']},mode=700"
     mount(
@@ -85,7 +86,7 @@ def mount_home(settings: dict[str, Any], source: str) -> None:
         MS_NOSUID | MS_NODEV,
         f"size={settings['disk_bytes']},{owner}",
     )
-    subprocess.run(["cp", "-a", f"{source}/.", str(target)], check=True)
+    subprocess.run(["cp", "-a", f"{folder}/.", str(target)], check=True, pass_fds=[source])
 
 
 def make_runtime_folders(settings: dict[str, Any]) -> Path:

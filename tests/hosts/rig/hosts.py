@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
 from typing import Any
 
@@ -55,5 +56,6 @@ class Hosts:
 
     def close(self) -> None:
         """End all hosts."""
-        for host in self.by_name.values():
-            host.power_off()
+        with contextlib.ExitStack() as stack:
+            for host in self.by_name.values():
+                stack.callback(host.power_off)

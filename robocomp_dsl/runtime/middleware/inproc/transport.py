@@ -1,8 +1,10 @@
 """inproc transport: components of one process call each other directly.
 
 A query runs in the thread of the caller, in the callback group of the server; a command or a
-publication is queued and handled by a thread of the receiver. Values are passed by reference, not
-copied: receivers must not modify them.
+publication is queued and handled by a thread of the receiver. Components with generated packages of
+their own get values of their own classes, through the codec as between processes. Where both sides
+share the interface object, as in tests, values are passed by reference: receivers must not modify
+them.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ from typing import Any
 
 from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.component.statistics import OperationCounts
+from robocomp_dsl.runtime.component.thread_context import within
 from robocomp_dsl.runtime.component.user_errors import message_of
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
@@ -88,14 +91,23 @@ class InprocServiceClient:
     def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:  # noqa: ARG002
         """See `ServiceClient`."""
         served = self._server.port.operations[operation.name]
+        encode = _encoder(operation, served)
         if operation.pattern is Pattern.COMMAND:
-            return BoundOperation(None, self._command(served))
-        return BoundOperation(None, self._query(operation, served))
+            return BoundOperation(encode, self._command(served, _decoding(served, encode)))
+        query = within(
+            self._query(operation, served), self._server.port.at.component, self._at.component
+        )
+        if encode is None:
+            return BoundOperation(None, query)
+        decode, decode_reply = served.operation.decode_request, operation.decode_reply
+        return BoundOperation(encode, lambda message: decode_reply(query(decode(message))))
 
-    def _command(self, served: IncomingOperation) -> Callable[[tuple[Any, ...]], None]:
-        port, put, handle = self._server.port, self._server.queue.put, served.handle
+    def _command(
+        self, served: IncomingOperation, handle: Callable[[Any], Any]
+    ) -> Callable[[Any], None]:
+        port, put = self._server.port, self._server.queue.put
 
-        def command(arguments: tuple[Any, ...]) -> None:
+        def command(arguments: Any) -> None:
             if port.closed:
                 raise ServerLost
             put(served, handle, arguments)
@@ -117,7 +129,9 @@ class InprocServiceClient:
             failure.__cause__ = error
             return failure
 
-        return served.handle_for_caller(self._timeout, convert, ServerLost)
+        is_same = served.operation is operation
+        encode = None if is_same else served.operation.encode_reply
+        return served.handle_for_caller(self._timeout, convert, ServerLost, encode)
 
     def set_timeout(self, seconds: float) -> None:
         """See `ServiceClient`."""
@@ -141,12 +155,23 @@ class InprocPublisher:
     def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:  # noqa: ARG002
         """See `Publisher`."""
         name = operation.name
+        handles: dict[IncomingOperation, Callable[[Any], Any]] = {}
 
         def send(arguments: tuple[Any, ...], _number: bytes) -> None:
+            data: Any = None
             for subscriber in tuple(self._subscribers.values()):
                 served = subscriber.port.operations.get(name)
-                if served:
+                if served is None:
+                    continue
+                if served.operation is operation:
                     subscriber.queue.put(served, served.handle, arguments)
+                    continue
+                if data is None:
+                    data = operation.encode_request(arguments)
+                handle = handles.get(served)
+                if handle is None:
+                    handle = handles[served] = _decoding(served, operation.encode_request)
+                subscriber.queue.put(served, handle, data)
 
         return BoundOperation(None, send)
 
@@ -166,6 +191,26 @@ class InprocPublisher:
     def close(self) -> None:
         """See `Publisher`."""
         self._subscribers.clear()
+
+
+def _encoder(
+    operation: Operation, served: IncomingOperation
+) -> Callable[[tuple[Any, ...]], bytes] | None:
+    """What makes a message of the caller's values; None if the server takes the values."""
+    return None if served.operation is operation else operation.encode_request
+
+
+def _decoding(served: IncomingOperation, encode: object) -> Callable[[Any], Any]:
+    """A handle that takes what `encode` makes."""
+    handle = served.handle
+    if encode is None:
+        return handle
+    decode = served.operation.decode_request
+
+    def decode_and_handle(message: bytes) -> Any:
+        return handle(decode(message))
+
+    return decode_and_handle
 
 
 def _as_declared(

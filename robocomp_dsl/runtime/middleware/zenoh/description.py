@@ -1,11 +1,12 @@
-"""zenoh: the house transport, between processes of one machine."""
+"""zenoh: the house transport, between processes of one or several machines."""
 
 from robocomp_dsl.runtime.middleware.capabilities import Capabilities, MiddlewareDescription
 
 MIDDLEWARE = MiddlewareDescription(
     name="zenoh",
-    summary="the default: components in any processes of one machine",
+    summary="the default: components in any processes, also on several hosts",
     capabilities=Capabilities(
+        between_hosts=True,
         sequence_numbers=True,
         reports_source=True,
         qos=frozenset({"reliable", "keep_all", "latched", "priority"}),

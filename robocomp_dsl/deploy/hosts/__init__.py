@@ -1,0 +1,1 @@
+"""The computers of a deployment, reached by OpenSSH: connections, checks, facts, locks."""

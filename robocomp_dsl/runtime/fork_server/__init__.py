@@ -1,0 +1,1 @@
+"""A process that has imported the runtime and forks into components: they start faster."""
