@@ -30,6 +30,7 @@ from robocomp_dsl.model.limits_text import format_limits
     "--name", metavar="NAME", help="Name of the running deployment; default: its name in the file."
 )
 @click.option("--domain", metavar="NAME", help="Communication domain; default: a new domain.")
+@click.option("--access", is_flag=True, help="Show who may use which ports over hosts.")
 @click.option("--format", "output_format", type=click.Choice(["text", "json"]), default="text")
 def command(
     app: Path,
@@ -37,6 +38,7 @@ def command(
     group: str | None,
     name: str | None,
     domain: str | None,
+    access: bool,
     output_format: str,
 ) -> None:
     """Show the processes that `up` would start, their order and connections; start nothing.
@@ -48,12 +50,31 @@ def command(
     options.print_findings(checked.findings, "full", sys.stderr)
     if checked.plan is None:
         raise CliError(EXIT_FINDINGS)
-    if output_format == "json":
+    if access:
+        _print_access(checked, output_format)
+    elif output_format == "json":
         print(json.dumps(as_data(checked.plan), indent=1))
     else:
         print("\n".join(map(strip_control_chars, as_text(checked.plan))))
     if not checked.ready:
         raise CliError(EXIT_FINDINGS)
+
+
+def _print_access(checked: rcdeploy_app.CheckedDeployment, output_format: str) -> None:
+    from robocomp_dsl.deploy.network.access_rules import access_rules  # noqa: PLC0415
+    from robocomp_dsl.deploy.network.access_text import access_data, access_text  # noqa: PLC0415
+    from robocomp_dsl.deploy.network.identities import needs_network  # noqa: PLC0415
+
+    assert checked.deployment is not None  # noqa: S101 - there is a plan
+    assert checked.plan is not None  # noqa: S101
+    if not needs_network(checked.deployment):
+        print("all components are on this machine: its user may use everything")
+        return
+    rules = access_rules(checked.deployment, checked.plan.domain)
+    if output_format == "json":
+        print(json.dumps(access_data(rules), indent=1))
+    else:
+        print("\n".join(map(strip_control_chars, access_text(rules))))
 
 
 def as_data(plan: Plan) -> dict[str, Any]:
