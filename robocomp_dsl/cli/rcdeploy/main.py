@@ -18,6 +18,8 @@ TABLE = {
     "keys": ("rcdeploy.keys", "Make the certificates of a deployment over hosts."),
     "plan": ("rcdeploy.plan", "Show which processes would be started, and how."),
     "check": ("rcdeploy.check", "Check a deployment; start nothing."),
+    "diff": ("rcdeploy.diff", "Compare what runs on hosts with the description."),
+    "rollback": ("rcdeploy.rollback", "Run an earlier version of a deployment over hosts."),
     "status": ("rcdeploy.status", "Show the components of running deployments."),
     "logs": ("rcdeploy.logs", "Show the logs of a running deployment."),
     "list": ("rcdeploy.inspect.listing", "List ports, operations and types of components."),

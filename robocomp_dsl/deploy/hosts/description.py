@@ -15,6 +15,7 @@ from robocomp_dsl.deploy.content.tree import ContentTree
 from robocomp_dsl.deploy.hosts import engine_codes
 from robocomp_dsl.deploy.hosts.host_network import HostNetwork, first_component
 from robocomp_dsl.deploy.hosts.manifest import HostedComponent, HostManifest
+from robocomp_dsl.deploy.hosts.registry import HostedDeployment
 from robocomp_dsl.deploy.network.identities import host_name, used_hosts
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.deploy.units import names
@@ -205,3 +206,20 @@ def _component(
 def all_components(manifests: Iterable[HostManifest]) -> dict[str, HostedComponent]:
     """The components of all hosts by full name."""
     return {c.name: c for manifest in manifests for c in manifest.components}
+
+
+def described_entry(deployment: Deployment, plan: Plan) -> HostedDeployment:
+    """How to reach a deployment that somebody has started from this description."""
+    components = tuple(
+        HostedComponent(
+            process.name,
+            host,
+            names.service_name(plan.name, process.name),
+            is_program=process.is_program,
+            member_names=process.member_names,
+        )
+        for host, _, process in _pairs(deployment, plan)
+    )
+    path = str(plan.path.resolve())
+    hosts = deployment_hosts(deployment)
+    return HostedDeployment.from_components(plan.name, path, plan.domain, hosts, components, 0.0)

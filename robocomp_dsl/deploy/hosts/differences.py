@@ -43,6 +43,15 @@ class HostChanges:
     written: tuple[str, ...] = ()
     removed: tuple[str, ...] = ()
 
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "host": self.host,
+            "components": [change.as_dict() for change in self.components],
+            "written": list(self.written),
+            "removed": list(self.removed),
+        }
+
     def __bool__(self) -> bool:
         return bool(self.components or self.written or self.removed)
 

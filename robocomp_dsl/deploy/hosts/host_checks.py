@@ -19,7 +19,7 @@ from robocomp_dsl.deploy.hosts.errors import HostError
 from robocomp_dsl.deploy.hosts.host_facts import MIN_PYTHON, HostFacts, fetch_facts
 from robocomp_dsl.deploy.status import format_duration
 from robocomp_dsl.diagnostics import Code, Diagnostic, Severity
-from robocomp_dsl.model.deployment import Deployment, Host
+from robocomp_dsl.model.deployment import UNPLACED, Deployment, Host
 from robocomp_dsl.source import Span
 
 CLOCK_LIMIT_S = 0.05
@@ -72,8 +72,9 @@ class CheckedHosts:
 
 
 def used_hosts(deployment: Deployment) -> tuple[Host, ...]:
-    """The hosts on which components run, in the order of the components."""
-    return tuple({instance.host.name: instance.host for instance in deployment.instances}.values())
+    """The hosts on which components run, in the order of the components; those not placed: none."""
+    hosts = [instance.host for instance in deployment.instances]
+    return tuple({host.name: host for host in hosts if host is not UNPLACED}.values())
 
 
 async def check_hosts(
@@ -89,7 +90,6 @@ async def check_hosts(
     checked = CheckedHosts(used_hosts(deployment) if hosts is None else tuple(hosts))
     if not all(host.is_local for host in checked.hosts):
         import_module("robocomp_dsl.deploy.hosts.ssh")  # reports a missing library now
-    limits = limits or HostLimits()
     try:
         async with asyncio.TaskGroup() as tasks:
             for host in checked.hosts:
@@ -97,15 +97,30 @@ async def check_hosts(
     except BaseException:
         await checked.close()
         raise
-    spans = host_spans(deployment)
-    for host in checked.hosts:
-        span = spans.get(host.name, deployment.span)
-        if error := checked.failures.get(host.name):
-            checked.problems[host.name] = [describe_failure(error, span)]
-        else:
-            facts = checked.facts[host.name]
-            checked.problems[host.name] = list(check_facts(host, facts, span, limits))
+    checked.problems = host_problems(
+        deployment, checked.hosts, checked.facts, checked.failures, limits
+    )
     return checked
+
+
+def host_problems(
+    deployment: Deployment,
+    hosts: Sequence[Host],
+    facts: Mapping[str, HostFacts],
+    failures: Mapping[str, HostError],
+    limits: HostLimits | None = None,
+) -> dict[str, list[Diagnostic]]:
+    """The findings of each host by its name, from its facts or its failure. Pure."""
+    spans = host_spans(deployment)
+    problems: dict[str, list[Diagnostic]] = {}
+    for host in hosts:
+        span = spans.get(host.name, deployment.span)
+        if error := failures.get(host.name):
+            problems[host.name] = [describe_failure(error, span)]
+        elif host.name in facts:
+            found = check_facts(host, facts[host.name], span, limits or HostLimits())
+            problems[host.name] = list(found)
+    return problems
 
 
 async def _ask(host: Host, name: str, checked: CheckedHosts) -> None:

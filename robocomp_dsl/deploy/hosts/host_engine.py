@@ -31,7 +31,12 @@ from robocomp_dsl.deploy.hosts.rollout import (
     roll_out,
     start_helpers,
 )
-from robocomp_dsl.deploy.hosts.stored_versions import check_trees, fetch_version
+from robocomp_dsl.deploy.hosts.stored_versions import (
+    StoredVersion,
+    check_trees,
+    fetch_version,
+    list_versions,
+)
 from robocomp_dsl.deploy.hosts.unit_runner import UnitRunner, with_requirements
 from robocomp_dsl.deploy.selection import NoSuchComponent, select_names
 from robocomp_dsl.deploy.status import ProcessStatus, format_duration
@@ -190,6 +195,16 @@ class HostEngine:
     async def _stop_helpers(self, agent: HostAgent) -> None:
         report = await agent.report()
         await agent.systemctl("stop", list(report.units))
+
+    def versions(self) -> list[StoredVersion]:
+        """The stored versions, oldest first. Raises `EngineError`."""
+        return run_async(self._versions())
+
+    async def _versions(self) -> list[StoredVersion]:
+        async with self._fleet() as fleet:
+            reports = await fleet.reports()
+            raise_failures(fleet)
+            return await list_versions(fleet, self.name, reports)
 
     def roll_back(self, version: int, report: Report) -> RolloutResult:
         """Run another stored version; 0: the one before. Raises `EngineError`."""

@@ -112,10 +112,11 @@ def describe_error(host: Host, check: HostKeyCheck, error: Exception) -> HostErr
         case TimeoutError():
             text = f"{name}: no answer within {CONNECT_TIMEOUT_S:g} s"
             described = HostUnreachable(text, _reachability_help(host))
-        case asyncssh.ConnectionLost():
-            text = f"{name}: the connection was lost"
-            described = HostUnreachable(text, _reachability_help(host))
-        case asyncssh.ProtocolError():
+        case asyncssh.ConnectionLost() | ConnectionResetError() | BrokenPipeError():
+            text = f"{name}: the connection was closed before the login"
+            remedy = "check the port of the address, and the log of the server: `journalctl -u ssh`"
+            described = HostUnreachable(text, remedy)
+        case asyncssh.ProtocolError() | asyncssh.ProtocolNotSupported():
             text = f"{name}: what answers at the address is no SSH server ({error.reason})"
             described = HostUnreachable(text, "check the port of the address")
         case asyncssh.ConfigParseError():
