@@ -31,12 +31,9 @@ def robot(module_hosts: Hosts) -> SimulatedHost:
 
 
 @pytest.fixture(autouse=True)
-def operator(module_hosts: Hosts, robot: SimulatedHost, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The home of the person who connects; it knows the keys of the hosts."""
-    monkeypatch.setenv("HOME", str(module_hosts.operator))
-    monkeypatch.delenv("XDG_CONFIG_HOME", raising=False)
+def known_robot(module_hosts: Hosts, robot: SimulatedHost, operator: Path) -> None:
+    """The person who connects knows the keys of the hosts."""
     module_hosts.trust()
-    return module_hosts.operator
 
 
 def run(task: Coroutine[Any, Any, Any]) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -97,6 +98,55 @@ def test_simulated_host_link_is_cut_and_restored(module_hosts: Hosts) -> None:
         ssh(hosts, "base", "hostname", options=("ConnectTimeout=1",))
     base.restore_link()
     assert ssh(hosts, "base", "hostname").strip() == "base"
+
+
+def test_simulated_host_delays_packets(module_hosts: Hosts) -> None:
+    base = module_hosts.by_name["base"]
+    base.netem(delay_ms=100)
+    started = time.monotonic()
+    assert ssh(module_hosts, "base", "hostname").strip() == "base"
+    # A TCP connection, the greeting, the keys, the login, a session: each waits for a reply.
+    assert time.monotonic() - started > 1.0
+    base.end_netem()
+
+
+def test_simulated_host_loses_packets(module_hosts: Hosts) -> None:
+    base, robot = module_hosts.by_name["base"], module_hosts.by_name["robot"]
+    base.netem(loss=1.0)
+    echo = "import socket,sys; socket.create_connection((sys.argv[1], 22), 0.3)"
+    command = ["python3", "-c", echo, base.address]
+    assert robot.run(command, check=False).returncode == 1
+    base.netem(loss=0.1)
+    assert ssh(module_hosts, "base", "hostname").strip() == "base"
+    base.end_netem()
+    assert robot.run(["python3", "-c", echo, base.address]).returncode == 0
+
+
+def test_simulated_host_has_its_own_clock(hosts: Hosts) -> None:
+    late = hosts.start("late")
+    read = [sys.executable, "-c", "import time; print(time.time())"]
+    late.set_clock_offset(-3600)
+    assert float(late.run(read).stdout) == pytest.approx(time.time() - 3600, abs=30)
+    assert float(ssh(hosts, "late", "date", "+%s")) == pytest.approx(time.time() - 3600, abs=30)
+    ticker = "import time\nfor line in iter(input, 'end'): print(time.time(), flush=True)"
+    running = late.popen([sys.executable, "-c", ticker], stdin=subprocess.PIPE, stdout=-1)
+    for offset in (0, 7200):
+        late.set_clock_offset(offset)
+        running.stdin.write(b"\n")
+        running.stdin.flush()
+        shown = float(running.stdout.readline())
+        assert shown == pytest.approx(time.time() + offset, abs=30)
+    running.communicate(b"end\n")
+
+
+def test_simulated_host_has_limited_disk(hosts: Hosts) -> None:
+    small = hosts.start("small", disk_bytes=50_000_000)
+    small.run(["sh", "-c", "head -c 1000000 /dev/zero > kept"])
+    small.limit_disk(500_000)
+    full = small.run(["sh", "-c", "head -c 2000000 /dev/zero > more"], check=False)
+    assert "No space left" in full.stderr
+    small.reboot()
+    assert "kept" in small.run(["ls"]).stdout
 
 
 def test_simulated_host_leaves_nothing(hosts: Hosts) -> None:

@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from robocomp_dsl.cli import options
+from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.deploy.plan import Plan, plan
 from robocomp_dsl.diagnostics import Diagnostic, Report
 
@@ -86,6 +88,16 @@ def check(
         report.extend(find_outdated(deployment, workspace.middlewares.names))
     ready = not report.has_errors
     return CheckedDeployment(report.sorted(), plan_, ready, deployment, hosted)
+
+
+def require_hosts(checked: CheckedDeployment, app: Path) -> None:
+    """Print the findings of the text; raise `CliError` unless it can run on several hosts."""
+    options.print_findings(checked.findings, "full", sys.stderr)
+    if checked.plan is None or not checked.ready:
+        raise CliError(EXIT_FINDINGS)
+    if not checked.hosted:
+        text = f"{app}: all components are on this machine; `rcdeploy up` runs them"
+        raise CliError(EXIT_FINDINGS, text)
 
 
 def _running_instance(name: str, path: Path) -> RunningDeployment | None:

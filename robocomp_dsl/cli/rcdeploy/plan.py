@@ -116,10 +116,11 @@ def as_text(plan: Plan) -> Iterator[str]:
     yield f"{plan.name}: {count} component{'s' * (count != 1)}{over}"
     yield f"domain {plan.domain}"
     yield f"clock {plan.clock}"
+    by_name = {process.name: process for process in plan.processes}
     for wave, names in enumerate(batches({p.name: set(p.after) for p in plan.processes}), start=1):
-        for process in (p for p in plan.processes if p.name in names):
+        for name in names:
             yield ""
-            yield from _described(process, wave)
+            yield from _described(by_name[name], wave)
     for program in plan.externals:
         port, connected = program.format()
         yield from ("", port, f"   {connected}")

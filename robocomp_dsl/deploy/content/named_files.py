@@ -43,16 +43,15 @@ def named_files(
     process: Process,
     connections: Sequence[Connection],
     description: Path,
-    extra: Sequence[Path],
     config: Path | None,
 ) -> NamedFiles:
-    """Files of the configuration, `set`, monitors, the command line and `extra`.
+    """Files of the configuration, `files`, `set`, monitors and the command line.
 
     `description` is the DDSL file, `config` the configuration that the instance reads.
     """
     folder = process.cwd.resolve()
     files = [NamedFile(place_of(config), str(config))] if config else []
-    files += [NamedFile(place_of(folder / path), str(path)) for path in extra]
+    files += [NamedFile(place_of(folder / path), str(path)) for path in instance.files]
     files += _monitors(instance, connections)
     files += _program_files(instance, folder)
     bases = [config.absolute().parent] if config else []

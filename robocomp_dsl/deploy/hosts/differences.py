@@ -43,6 +43,15 @@ class HostChanges:
     written: tuple[str, ...] = ()
     removed: tuple[str, ...] = ()
 
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "host": self.host,
+            "components": [change.as_dict() for change in self.components],
+            "written": list(self.written),
+            "removed": list(self.removed),
+        }
+
     def __bool__(self) -> bool:
         return bool(self.components or self.written or self.removed)
 
@@ -108,7 +117,12 @@ def _change(
 def _reason(old: str, new: str) -> str:
     """What differs between two texts of a unit."""
     before, after = _settings(old), _settings(new)
-    parts = {"Tree": "files", "Environment": "Python packages", "Certificate": "certificate"}
+    parts = {
+        "Tree": "files",
+        "Environment": "Python packages",
+        "Certificate": "network settings or certificate",
+        "Settings": "network settings or access rules",
+    }
     identity = [
         text
         for key, text in parts.items()

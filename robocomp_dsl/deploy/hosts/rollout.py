@@ -96,22 +96,23 @@ async def roll_out(
     report: Report,
     *,
     version: int = 0,
+    is_complete: bool = True,
 ) -> RolloutResult:
     """Make the hosts as described; the caller holds the locks. Raises `HostError`.
 
-    `version` is the number of a stored version; 0: a new one.
+    `version` is the number of a stored version; 0: a new one. `is_complete`: no host lacks a file.
     """
     reports = await fleet.reports()
     raise_failures(fleet)
     changes = all_changes(described, reports)
     current = max((int(r.current) for r in reports.values() if r.current.isdecimal()), default=0)
-    if not changes and (not version or version == current):
+    if not changes and is_complete and (not version or version == current):
         return RolloutResult(current, [])
     await copy(fleet)
     raise_failures(fleet)
     if not version:
         stored = (number for host in reports.values() for number in host.versions)
-        version = max(stored, default=0) + 1
+        version = max(stored, default=0) + 1 if changes else current
         described = {
             host: manifest.numbered(version, time.time(), describe_author())
             for host, manifest in described.items()
@@ -196,7 +197,7 @@ async def _start(
     fleet: Fleet, described: Mapping[str, HostManifest], result: RolloutResult, report: Report
 ) -> None:
     components = {c.name: c for manifest in described.values() for c in manifest.components}
-    wanted = {
+    verbs = {
         change.component: change.verb
         for each in result.changes
         for change in each.components
@@ -205,8 +206,8 @@ async def _start(
     runner = UnitRunner(fleet.agents, components, report)
     await start_helpers(fleet, described)
     await runner.watch()
-    ordered = [name for name in components if name in wanted]
-    await runner.start(ordered, {name for name, verb in wanted.items() if verb == RESTART})
+    ordered = [name for name in components if name in verbs]
+    await runner.start(ordered, {name for name, verb in verbs.items() if verb == RESTART})
     result.failed.update(runner.failed)
     await enable(fleet, described)
 

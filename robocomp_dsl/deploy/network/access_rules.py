@@ -23,7 +23,7 @@ from robocomp_dsl.deploy.network.port_uses import PortUse, Rewiring, Verb, port_
 from robocomp_dsl.model.deployment import Deployment
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.runtime.component.naming import ANY
-from robocomp_dsl.runtime.presence.keys import domain_prefix, escape_chunk
+from robocomp_dsl.runtime.presence.keys import ROUTER_KEY, domain_prefix, escape_chunk
 
 IN, OUT = "ingress", "egress"
 PUT, QUERY, REPLY = "put", "query", "reply"
@@ -143,9 +143,15 @@ class _Keys:
 
     def _presence(self) -> Iterator[Grant]:
         """Every component knows the ports of all, and makes its own state known."""
-        for kind in ("p", "a"):
-            yield Grant(IN, WATCH_TOKENS, f"{self._root}/{kind}/**")
-            yield Grant(OUT, TOKEN, f"{self._root}/{kind}/**")
+        for key in (f"{self._root}/p/**", f"{self._root}/a/**", f"{ROUTER_KEY}/*"):
+            yield Grant(IN, WATCH_TOKENS, key)
+            yield Grant(OUT, TOKEN, key)
+        # Who serves and subscribes is known anyway. A program that did not know would send nothing,
+        # and its attempt would not be in the log of the router.
+        for kind in ("q", "n", "l", "h"):
+            yield Grant(OUT, SERVE, f"{self._root}/{kind}/**")
+        for kind in ("t", "c"):
+            yield Grant(OUT, SUBSCRIBE, f"{self._root}/{kind}/**")
         yield Grant(IN, ASK_TOKENS, f"{self._root}/p/server/**")
         yield Grant(IN, TOKEN, f"{self._root}/s/{self._component}/*/*")
 
@@ -175,7 +181,6 @@ class _Keys:
         for each in asked or (key,):
             yield Grant(IN, QUERY, each)
         yield Grant(OUT, REPLY, key)
-        yield Grant(OUT, SERVE, key)
 
     def _serving(self, use: PortUse) -> Iterator[Grant]:
         if use.queries and use.on_house:
@@ -189,13 +194,10 @@ class _Keys:
             yield from self._asking(self._peer("q", use))
         if use.commands and use.on_house:
             yield Grant(IN, PUT, self._peer("c", use))
-            yield Grant(OUT, SUBSCRIBE, self._peer("c", use))
 
     def _publishing(self, use: PortUse) -> Iterator[Grant]:
         if use.on_house:
             yield Grant(IN, PUT, self._own("t", use))
-            # A subscription may be to all publishers of the interface.
-            yield Grant(OUT, SUBSCRIBE, f"{self._root}/t/{escape_chunk(use.interface)}/**")
         yield Grant(IN, TOKEN, f"{self._root}/a/{self._component}/{escape_chunk(use.port)}/*/*")
         yield from self._answering(self._own("n", use), f"{self._root}/n/**")
         yield from self._answering(self._own("l", use))

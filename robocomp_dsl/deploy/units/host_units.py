@@ -39,10 +39,10 @@ def host_units(
         name = names.service_name(deployment, each.process.name)
         units[name] = service_unit(each, deployment, on_host)
     timer = names.log_trim_name(deployment, "timer")
-    wanted = [*units, timer]
+    started = [*units, timer]
     units[timer] = _trim_timer(deployment)
     units[names.log_trim_name(deployment, "service")] = _trim_service(deployment, root, python)
-    units[names.target_name(deployment)] = _target(deployment, wanted)
+    units[names.target_name(deployment)] = _target(deployment, started)
     return units
 
 

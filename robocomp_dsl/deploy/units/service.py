@@ -26,7 +26,7 @@ MIN_MARGIN_S = 0.5
 """systemd waits so much longer than the watchdog of the component, which reports the stack."""
 _MARK = '+{"time": %s.%N, "level": "INFO", "message": "'
 """A log line as a format of date(1). It dates the lines of programs, which have no time."""
-_END_TEXT = "ended: ${EXIT_CODE} ${EXIT_STATUS} (${SERVICE_RESULT})"
+END_TEXT = "ended: ${EXIT_CODE} ${EXIT_STATUS} (${SERVICE_RESULT})"
 """systemd.exec(5) sets the variables."""
 READINESS = "robocomp_dsl.deploy.units.wait_until_ready"
 _WATCHDOG_VARIABLE = "WATCHDOG_USEC"
@@ -57,10 +57,14 @@ def service_unit(hosted: HostedProcess, deployment: str, on_host: frozenset[str]
         f"StandardOutput=append:{log}",
         f"StandardError=append:{log}",
     ]
-    identity = ["[X-RoboComp]", *_identity(hosted)]
+    return join_sections(head, service, ["[X-RoboComp]", *_identity(hosted)])
+
+
+def join_sections(head: list[str], service: list[str], identity: list[str]) -> str:
+    """The text of a service, with its revision in the environment of the process."""
     # The process itself does not depend on the order of the start, nor on how often it may start.
     revision = hashlib.sha256("\n".join([*service, *identity]).encode()).hexdigest()[:16]
-    service.append(f"Environment={REVISION_VARIABLE}={revision}")
+    service = [*service, f"Environment={REVISION_VARIABLE}={revision}"]
     return "\n".join([*head, "", *service, "", *identity]) + "\n"
 
 
@@ -95,7 +99,7 @@ def _start(hosted: HostedProcess, log: str) -> Iterator[str]:
     yield f"Type={'notify' if sends_ready else 'exec'}"
     yield "NotifyAccess=all"
     yield f"WorkingDirectory={path(str(process.cwd), HOST_PATHS)}"
-    yield f"ExecStartPre={_mark('starting')}"
+    yield f"ExecStartPre={log_mark('starting')}"
     yield f"ExecStart={_words(_command(process))}"
     if not sends_ready:
         yield f"ExecStartPost={_readiness(hosted, log)}"
@@ -107,7 +111,7 @@ def _start(hosted: HostedProcess, log: str) -> Iterator[str]:
         yield "WatchdogSignal=SIGTERM"
 
 
-def _mark(text: str) -> str:
+def log_mark(text: str) -> str:
     """The command that logs `text`, in which systemd replaces variables."""
     quoted = argument(_MARK).removesuffix('"')
     return f'/usr/bin/env date {quoted}{text}\\"}}"'
@@ -147,7 +151,7 @@ def _end(process: Process) -> Iterator[str]:
     yield "KillMode=control-group"
     yield f"TimeoutStopSec={GRACE_S:g}"
     yield "SuccessExitStatus=143"
-    yield f"ExecStopPost={_mark(_END_TEXT)}"
+    yield f"ExecStopPost={log_mark(END_TEXT)}"
 
 
 def _environment(hosted: HostedProcess) -> Iterator[str]:

@@ -26,6 +26,8 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 Kind = Literal["q", "c", "t", "n", "l"]
+ROUTER_KEY = "rc-routers"
+"""The routers of a deployment have the tokens `rc-routers/<name>`, in no domain."""
 
 
 def escape_chunk(text: str) -> str:

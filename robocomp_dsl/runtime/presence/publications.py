@@ -19,6 +19,7 @@ import zenoh
 
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.presence import keys
+from robocomp_dsl.runtime.presence.domain_session import DomainSession
 from robocomp_dsl.runtime.presence.sequence_format import SEQUENCE_FORMAT
 
 COUNT_TIMEOUT_S = 0.2
@@ -65,23 +66,21 @@ class PublisherRegistry:
     `created`: their ids, with the time of creation (monotonic clock of the machine, ns).
     """
 
-    def __init__(self, session: zenoh.Session, domain: str) -> None:
-        self._session = session
+    def __init__(self, opened: DomainSession, domain: str) -> None:
+        self._session = opened.session
         self._domain = domain
         self.created: dict[int, int] = {}
         self.counts_at_discovery: dict[tuple[int, str], int] = {}
-        self._subscriber = session.liveliness().declare_subscriber(
-            f"{keys.domain_prefix(domain)}/a/**", self._on_token, history=True
-        )
+        opened.watch_tokens(f"{keys.domain_prefix(domain)}/a/**", self._on_token)
 
-    def _on_token(self, sample: zenoh.Sample) -> None:
-        token = keys.parse_publisher_token(str(sample.key_expr))
-        if token is None or sample.kind == zenoh.SampleKind.DELETE:
+    def _on_token(self, key: str, exists: bool) -> None:
+        token = keys.parse_publisher_token(key)
+        if token is None or not exists:
             return  # messages of a publisher that exited may still be in a queue
         self.created[token.id] = token.created
-        key = keys.counts_key(self._domain, token.component, token.port)
+        counts = keys.counts_key(self._domain, token.component, token.port)
         with contextlib.suppress(zenoh.ZError):  # the session is closing
-            self._session.get(key, self._on_count, **_ALL_REPLIES)
+            self._session.get(counts, self._on_count, **_ALL_REPLIES)
 
     def _on_count(self, reply: zenoh.Reply) -> None:
         for published in _published_counts((reply,)):

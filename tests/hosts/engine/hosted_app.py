@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -10,8 +11,14 @@ from robocomp_dsl.cli.rcdeploy.app import CheckedDeployment, check
 from robocomp_dsl.deploy.hosts import registry
 from robocomp_dsl.deploy.hosts.deployer import Deployer
 from robocomp_dsl.deploy.hosts.differences import HostChanges
+from robocomp_dsl.deploy.hosts.errors import HostError
 from robocomp_dsl.deploy.hosts.host_engine import HostEngine, run_async
+from robocomp_dsl.deploy.hosts.host_logs import HostLogReader, LogRequest, read_past
 from robocomp_dsl.deploy.hosts.rollout import RolloutResult
+from robocomp_dsl.deploy.logs import LogRecord
+from robocomp_dsl.deploy.network.identities import identities
+from robocomp_dsl.deploy.network.key_folder import key_folder
+from robocomp_dsl.deploy.network.update_keys import update_keys
 from robocomp_dsl.deploy.status import ProcessStatus
 from tests.deploy.generated_components import generate_components
 from tests.hosts.rig.hosts import Hosts
@@ -25,8 +32,12 @@ class SpecificWorker(GenericWorker):
 """
 EYE = """
 class SpecificWorker(GenericWorker):
+    seen = 0
     def compute(self):
-        pass
+        pid = int(self.laser_proxy.getLaserData()[0].dist)
+        if pid != self.seen:
+            self.log.info("eye sees arm %d", pid)
+        self.seen = pid
 """
 
 
@@ -58,6 +69,13 @@ class HostedApp:
         assert checked.deployment
         return Deployer(checked.deployment, checked.plan, self.lines.append)
 
+    def make_keys(self) -> None:
+        """As `rcdeploy keys`."""
+        deployment = self.checked().deployment
+        assert deployment
+        folder = key_folder(deployment.name)
+        update_keys(deployment.name, identities(deployment), folder, datetime.now(UTC))
+
     def up(self) -> RolloutResult:
         self.lines.clear()
         return run_async(self.deployer().up())
@@ -77,6 +95,14 @@ class HostedApp:
     def roll_back(self, version: int = 0) -> RolloutResult:
         self.lines.clear()
         return self.engine().roll_back(version, self.lines.append)
+
+    def logs(self) -> list[LogRecord]:
+        entry = self.engine().deployment
+        readers = [HostLogReader(host, entry.name, LogRequest()) for host in entry.hosts]
+        errors: list[HostError] = []
+        records = run_async(read_past(readers, errors.append))
+        assert not errors, errors
+        return records
 
     def rows(self) -> dict[str, ProcessStatus]:
         return {row.name: row for row in self.engine().status().rows}

@@ -85,7 +85,16 @@ def _create(root: Path, draft: Path, wheels: Path, request: dict[str, Any]) -> N
     }
     python = ["--python", request["python"]]
     _run([uv, "venv", "--quiet", "--relocatable", *python, str(draft)], variables)
-    install = [uv, "pip", "install", "--quiet", "--no-index", "--require-hashes", "--no-build"]
+    install = [
+        uv,
+        "pip",
+        "install",
+        "--quiet",
+        "--no-index",
+        "--require-hashes",
+        "--no-build",
+        "--no-deps",
+    ]
     install += ["--python", str(draft / "bin" / "python"), "--compile-bytecode"]
     install += ["--find-links", str(wheels), "-r", str(wheels / "requirements.txt")]
     _run(install, variables)
