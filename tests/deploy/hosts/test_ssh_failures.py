@@ -44,7 +44,10 @@ def failure_at(greeting: bytes | None) -> HostError:
     ("greeting", "message"),
     [
         (b"HTTP/1.1 400 Bad Request\r\n\r\n", "the connection was closed before the login"),
-        (b"SSH-1.5-old\r\n", "what answers at the address is no SSH server (Unsupported SSH version)"),
+        (
+            b"SSH-1.5-old\r\n",
+            "what answers at the address is no SSH server (Unsupported SSH version)",
+        ),
         (b"", "the connection was closed before the login"),
         (None, "no answer within 0.2 s"),
     ],
