@@ -16,8 +16,8 @@ from robocomp_dsl.deploy.connection_flags import connection_flags, middleware_fl
 from robocomp_dsl.deploy.devices import describe_devices, devices_environment
 from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.group_processes import join_groups
-from robocomp_dsl.deploy.planned_group import PlannedGroup, planned_groups
 from robocomp_dsl.deploy.plan_text import describe_clock, describe_host
+from robocomp_dsl.deploy.planned_group import PlannedGroup, planned_groups
 from robocomp_dsl.deploy.process import Process
 from robocomp_dsl.model.connection_index import ConnectionIndex
 from robocomp_dsl.model.deployment import (

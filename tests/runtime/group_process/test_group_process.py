@@ -117,7 +117,7 @@ def test_group_process_ends_when_a_member_hangs(folder: Path) -> None:
     (folder / "eye" / "specificworker.py").write_text(hanging)
     with start_group(folder, eye=(*EYE_OPTIONS, "--watchdog", "0.3")) as group:
         assert group.end() == 1
-    assert group.has("left-eye | error: watchdog: compute hangs")
+    assert group.has("left-eye | error: watchdog: compute has hung for")
     assert group.has("left-eye failed; the group left ends with it")
     assert group.has("left-arm | arm finalizes")
 
