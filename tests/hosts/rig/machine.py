@@ -289,10 +289,10 @@ class SimulatedHost:
     def reload_sshd(self) -> None:
         """Let sshd read its settings and keys again."""
         pid_file = Path(f"/proc/{self.first_pid}/root/run/sshd.pid")
-        pid = pid_file.read_text("ascii").strip()
+        pid = wait_until(lambda: _read_line(pid_file), f"sshd of {self.name} does not run")
         pid_file.unlink()
         self.run(["kill", "-HUP", pid], root=True)
-        wait_until(pid_file.exists, f"sshd of {self.name} did not read its settings")
+        wait_until(lambda: _read_line(pid_file), f"sshd of {self.name} did not read its settings")
 
     def replace_host_key(self) -> None:
         """Give sshd another key, as an installation from scratch does."""
@@ -306,6 +306,14 @@ class SimulatedHost:
     def sshd_log(self) -> str:
         """What sshd has logged."""
         return (self._files / "sshd.log").read_text("utf-8", "replace")
+
+
+def _read_line(path: Path) -> str:
+    """The first line of a file; empty if it is not written yet."""
+    try:
+        return path.read_text("ascii").strip()
+    except FileNotFoundError:
+        return ""
 
 
 def make_host(
