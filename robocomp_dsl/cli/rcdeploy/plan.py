@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     "--name", metavar="NAME", help="Name of the running deployment; default: its name in the file."
 )
 @click.option("--domain", metavar="NAME", help="Communication domain; default: a new domain.")
+@click.option("--access", is_flag=True, help="Show who may use which ports over hosts.")
 @click.option(
     "--hosts",
     "ask_hosts",
@@ -47,6 +48,7 @@ def command(
     group: str | None,
     name: str | None,
     domain: str | None,
+    access: bool,
     ask_hosts: bool,
     output_format: str,
 ) -> None:
@@ -67,13 +69,32 @@ def command(
 
         if placed := placed_plan(checked):
             plan, choices = placed.plan, tuple(placed.choices)
-    if output_format == "json":
+    if access:
+        _print_access(checked, output_format)
+    elif output_format == "json":
         print(json.dumps(as_data(plan, choices), indent=1))
     else:
         lines = [*as_text(plan), *_chosen(choices)]
         print("\n".join(map(strip_control_chars, lines)))
     if not checked.ready:
         raise CliError(EXIT_FINDINGS)
+
+
+def _print_access(checked: rcdeploy_app.CheckedDeployment, output_format: str) -> None:
+    from robocomp_dsl.deploy.network.access_rules import access_rules  # noqa: PLC0415
+    from robocomp_dsl.deploy.network.access_text import access_data, access_text  # noqa: PLC0415
+    from robocomp_dsl.deploy.network.identities import needs_network  # noqa: PLC0415
+
+    assert checked.deployment is not None  # noqa: S101 - there is a plan
+    assert checked.plan is not None  # noqa: S101
+    if not needs_network(checked.deployment):
+        print("all components are on this machine: its user may use everything")
+        return
+    rules = access_rules(checked.deployment, checked.plan.domain)
+    if output_format == "json":
+        print(json.dumps(access_data(rules), indent=1))
+    else:
+        print("\n".join(map(strip_control_chars, access_text(rules))))
 
 
 def _chosen(choices: Sequence[PlacementChoice]) -> Iterator[str]:
@@ -96,6 +117,7 @@ def as_data(plan: Plan, choices: Sequence[PlacementChoice] = ()) -> dict[str, An
         "middlewares": list(plan.middlewares),
         "clock": plan.clock,
         "processes": [_process(process) for process in plan.processes],
+        "groups": [group.as_dict() for group in plan.groups],
         "externals": [program.as_dict() for program in plan.externals],
         "external_connections": [_connection(each) for each in plan.external_connections],
         "placement": [dataclasses.asdict(choice) for choice in choices],
@@ -154,6 +176,8 @@ def as_text(plan: Plan) -> Iterator[str]:
         for name in names:
             yield ""
             yield from _described(by_name[name], wave)
+    for group in plan.groups:
+        yield from ("", *group.format())
     for program in plan.externals:
         port, connected = program.format()
         yield from ("", port, f"   {connected}")
