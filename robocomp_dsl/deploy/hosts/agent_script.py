@@ -202,7 +202,7 @@ class Agent:
             self.operations[unit] = self.operations.get(unit, 0) + 1
             if unit in self.watched:
                 self.watched[unit] = None
-        waits = operation in ("daemon-reload", "reset-failed", "enable", "disable", "stop")
+        waits = operation not in ("start", "restart")
         code, _, error = systemctl(operation, *([] if waits else ["--no-block"]), "--", *units)
         return {"code": code, "error": error}
 
