@@ -180,6 +180,21 @@ def test_connection_notices_lost_link(robot: SimulatedHost) -> None:
     run(session())
 
 
+def test_connection_closes_while_the_link_is_cut(robot: SimulatedHost) -> None:
+    async def session() -> None:
+        connection = await connect(host_of(robot))
+        process = await connection.start(["sleep", "600"])
+        robot.cut_link()
+        try:
+            await process.write(bytes(100_000))
+            async with asyncio.timeout(30):  # no keepalive ends it any more
+                await connection.close()
+        finally:
+            robot.restore_link()
+
+    run(session())
+
+
 @pytest.mark.parametrize(
     ("address", "user", "port", "message"),
     [

@@ -35,6 +35,7 @@ CHUNK_BYTES = 65536
 MAX_COMMANDS = 5
 """Commands at a time; sshd accepts 10 sessions over one connection, and SFTP needs another."""
 MAX_UPLOADS = 16
+CLOSE_TIMEOUT_S = 1.0
 
 
 async def connect_ssh(host: Host) -> SshConnection:
@@ -283,7 +284,11 @@ class SshConnection:
         """End the connection."""
         self._connection.close()
         with contextlib.suppress(OSError, asyncssh.Error):
-            await self._connection.wait_closed()
+            try:
+                async with asyncio.timeout(CLOSE_TIMEOUT_S):
+                    await self._connection.wait_closed()
+            except TimeoutError:  # the link is cut: what is not sent yet never will be
+                self._connection.abort()
 
 
 async def _copy(source: Path, target: asyncssh.SFTPClientFile) -> None:
