@@ -182,3 +182,11 @@ def _host_key_error(name: str, host: Host, check: HostKeyCheck, error: Exception
         return HostRefused(f"{name}: {error}", "", codes.UNKNOWN_KEY)
     message = f"{name}: its host key is not confirmed yet:{text}"
     return HostRefused(message, f"compare and confirm it: `{trust}`", codes.UNKNOWN_KEY)
+
+
+def describe_loss(host: Host, check: HostKeyCheck, error: Exception) -> HostError:
+    """The error of an operation on an open connection, which may have ended."""
+    name = describe_host(host)
+    if isinstance(error, asyncssh.ChannelOpenError) and "closed" not in error.reason:
+        return HostRefused(f"{name}: the SSH server refuses a session: {error.reason}")
+    return HostUnreachable(f"{name}: the connection was lost: {check.lost or error}")
