@@ -23,7 +23,8 @@ from typing import Any
 
 PROPERTIES = (
     "Id,LoadState,ActiveState,SubState,Result,MainPID,NRestarts,ExecMainCode,ExecMainStatus,"
-    "StatusText,ActiveEnterTimestampMonotonic,InactiveEnterTimestampMonotonic,Job"
+    "StatusText,ActiveEnterTimestampMonotonic,InactiveEnterTimestampMonotonic,Job,"
+    "InactiveExitTimestampMonotonic,StartLimitBurst"
 )
 UNITS = Path(".config/systemd/user")
 PERIOD_S = 0.1
