@@ -26,6 +26,16 @@ from tests.hosts.rig.machine import SimulatedHost
 from tests.support.waiting import wait_until
 
 TEST_TIMEOUT_S = 120.0
+NOISY = """\
+import sys
+input()
+sys.stderr.write("x" * 3_000_000 + "last words")
+sys.stderr.flush()
+print("y" * 3_000_000)
+print("end")
+sys.exit(5)
+"""
+"""Writes more than a pipe or a window of SSH holds, and errors first."""
 
 
 @pytest.fixture(scope="module")
@@ -96,6 +106,12 @@ def test_connection_streams_and_talks(robot: SimulatedHost) -> None:
             assert await process.readline() == line
         result = await process.close()
         assert (result.code, await process.readline()) == (0, b"")
+        noisy = await connection.start(["python3", "-c", NOISY])
+        await noisy.write(b"go\n")
+        assert len(await noisy.readline()) == 3_000_001
+        result = await noisy.close()
+        assert (result.code, result.stdout) == (5, b"end\n")
+        assert result.stderr.endswith(b"last words")
         await connection.close()
 
     run(session())

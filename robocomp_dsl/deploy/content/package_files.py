@@ -20,7 +20,9 @@ import robocomp_dsl
 from robocomp_dsl.deploy.content.hash_cache import HashCache
 
 NAME = "robocomp_dsl"
-RUNTIME_PACKAGES = ("hardware", "monitors", "runtime", "simulation", "tactile")
+RUNTIME_PACKAGES = (
+    "hardware", "host_tools", "monitors", "runtime", "simulation", "tactile",
+)  # fmt: skip
 RUNTIME_MODULES = (
     "__init__.py", "client.py", "extras.py", "finding.py", "name_table.py", "py.typed", "record.py",
     "regular_file.py", "slice_identifiers.py",
