@@ -154,7 +154,8 @@ def _reject_hosted(name: str) -> None:
             hosts = ", ".join(host.name for host in entry.hosts)
             raise CliError(
                 EXIT_FINDINGS,
-                f"`{name}` runs on {hosts}; stop it (`rcdeploy stop {name}`), or use another --name",
+                f"`{name}` runs on {hosts}; stop it with `rcdeploy stop {name}`, or use another"
+                " --name",
             )
 
 
