@@ -11,6 +11,7 @@ from typing import TypeVar
 
 from robocomp_dsl.runtime.connection.component_ports import ComponentPorts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.latched_messages import LatchedMessages
 from robocomp_dsl.runtime.connection.qos_merge import sender_qos
 from robocomp_dsl.runtime.connection.qos_support import check_qos
 from robocomp_dsl.runtime.connection.service_channel import ServiceChannel
@@ -65,11 +66,6 @@ def _update_server(server: ServingPort, at: Endpoint) -> None:
 
 
 def _update_topic(ports: ComponentPorts, topic: TopicChannel, at: Endpoint) -> None:
-    if bool(sender_qos(at).latched) != topic.is_latched:
-        raise UnchangeablePort(
-            f"`latched` of the published port `{at.port}` is fixed when it starts; write it into"
-            " the deployment and start it again"
-        )
     publishers = [ports.publisher(port.middleware, at) for port in topic.ports]
     records = [
         ports.declare("publisher", at, port.middleware, publisher.address)
@@ -80,3 +76,6 @@ def _update_topic(ports: ComponentPorts, topic: TopicChannel, at: Endpoint) -> N
     for record in former:
         if record not in records:
             ports.presence.withdraw(record)
+    is_latched = bool(sender_qos(at).latched)
+    if is_latched != topic.is_latched:
+        topic.set_latched(LatchedMessages(at, ports.presence) if is_latched else None)
