@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
 
+from robocomp_dsl.deploy.write_text import CannotWrite, write_text
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.runtime.parameters.overrides import parse_path
 from robocomp_dsl.source import Source, UnreadableSource
@@ -54,10 +55,9 @@ def write_settings(path: Path, instance: str, values: dict[str, str]) -> None:
         text = path.read_bytes().decode("utf-8")
         for parameter, literal in values.items():
             text = edit_text(text, path, instance, parameter, literal)
-        new = path.with_name(f".{path.name}.new")
-        new.write_bytes(text.encode("utf-8"))
-        new.chmod(path.stat().st_mode & 0o777)
-        new.replace(path)
+        write_text(path, text)
+    except CannotWrite as error:
+        raise CannotEdit(str(error)) from None
     except UnicodeDecodeError:
         raise CannotEdit(f"{path} is not encoded in UTF-8") from None
     except OSError as error:

@@ -120,6 +120,7 @@ def test_hosts_are_checked_together_with_one_finding_each(
         hosts.start("logout", linger=False),
         hosts.start("full", disk_bytes=4_000_000),
         hosts.start("snakeless", hidden=["/usr/bin/python3", "/usr/bin/python3.11"]),
+        hosts.start("unmanaged", hidden=["/usr/bin/systemctl"]),
         hosts.start("strange"),
         hosts.start("late"),
     ]
@@ -137,6 +138,7 @@ def test_hosts_are_checked_together_with_one_finding_each(
         "logout": ["RC839"],
         "full": ["RC836"],
         "snakeless": ["RC835"],
+        "unmanaged": ["RC834"],
         "strange": ["RC833"],
         "late": ["RC837"],
         "nowhere": ["RC830"],
@@ -162,6 +164,7 @@ def test_hosts_are_checked_together_with_one_finding_each(
         "`full` (full@",
         "are needed",
         "there is no Python",
+        "systemd is not installed",
         "install Python 3.11 or newer",
         "the systemd manager of user `manless` does not run",
         f"{app}:",  # located at the host

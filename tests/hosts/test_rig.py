@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import subprocess
 import sys
 import time
@@ -9,7 +11,10 @@ from pathlib import Path
 
 import pytest
 
+from tests.hosts.rig.cgroups import PREFIX, remove_stale_cgroups
 from tests.hosts.rig.hosts import Hosts
+from tests.hosts.rig.namespaces import TestNetwork
+from tests.hosts.rig.requirements import cgroup_roots
 from tests.support.waiting import wait_until
 
 SERVICE = """\
@@ -151,12 +156,49 @@ def test_simulated_host_has_limited_disk(hosts: Hosts) -> None:
 
 def test_simulated_host_leaves_nothing(hosts: Hosts) -> None:
     host = hosts.start("robot")
-    host.popen(["setsid", "sleep", "7654321"])
-    pid = wait_until(lambda: host.run(["pgrep", "-f", "sleep 7654321"], check=False).stdout)
+    duration = str(7_000_000 + os.getpid())
+    host.popen(["setsid", "sleep", duration])
+    pid = wait_until(lambda: host.run(["pgrep", "-f", f"sleep {duration}"], check=False).stdout)
     assert pid
     cgroups = [folder for folder in host._cgroups.folders if folder.exists()]
     assert cgroups
     host.power_off()
-    found = subprocess.run(["pgrep", "-f", "^sleep 7654321"], capture_output=True, check=False)
+    found = subprocess.run(["pgrep", "-f", f"^sleep {duration}"], capture_output=True, check=False)
     assert found.stdout == b""
     assert not any(folder.exists() for folder in cgroups)
+
+
+RUN = """\
+import sys
+from pathlib import Path
+from tests.hosts.rig.hosts import Hosts
+from tests.hosts.rig.namespaces import TestNetwork
+
+host = Hosts(Path(sys.argv[1]), TestNetwork()).start("robot")
+host.popen(["setsid", "sleep", sys.argv[2]])
+print(host.first_pid, flush=True)
+sys.stdin.read()
+"""
+
+
+def test_simulated_hosts_end_with_a_killed_test_process(
+    test_network: TestNetwork, tmp_path: Path
+) -> None:
+    """No fixture of the killed process runs; the kernel ends its hosts, the next run tidies up."""
+    duration = str(8_000_000 + os.getpid())
+    command = [sys.executable, "-c", RUN, str(tmp_path / "hosts"), duration]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+        assert process.stdout
+        first_pid = int(process.stdout.readline())
+        assert Path("/proc", str(first_pid)).exists()
+        process.send_signal(signal.SIGKILL)
+    wait_until(lambda: not Path("/proc", str(first_pid)).exists(), "the host goes on")
+    assert subprocess.run(["pgrep", "-f", f"sleep {duration}$"], check=False).returncode == 1
+    pattern = f"{PREFIX}{process.pid}-*"
+    wait_until(
+        lambda: (
+            remove_stale_cgroups()
+            or not any(folder for root in cgroup_roots() for folder in root.glob(pattern))
+        ),
+        "cgroups are left",
+    )

@@ -43,13 +43,15 @@ def command(app: Path, folders: tuple[Path, ...], clock_limit: float, output_for
     The clock is how far that of the host is ahead of this machine, with the uncertainty of the
     measurement. Exit code 1: a host cannot be used.
     """
+    from robocomp_dsl.cli.output.render import strip_control_chars  # noqa: PLC0415 - not for --help
+
     deployment = hosts_deployment.load(app, folders)
     checked = asyncio.run(_check(deployment, clock_limit / 1e3))
     if output_format == "json":
         print(json.dumps(as_dict(checked), indent=2))
     else:
         for line in format_table(checked):
-            print(line)
+            print(strip_control_chars(line))  # hosts write parts of it
         sys.stdout.flush()
         options.print_findings(checked.findings, "full", sys.stderr)
     if not checked.can_start:

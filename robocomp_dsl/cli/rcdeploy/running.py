@@ -37,10 +37,15 @@ def all_deployments() -> list[Engine]:
 
 
 def is_deployment(word: str) -> bool:
-    """Whether `word` names a running deployment, or a DDSL file. Raises `CliError`."""
+    """Whether `word` names a deployment that runs or is on hosts, or a DDSL file.
+
+    Raises `CliError`.
+    """
     if word.lower().endswith(".ddsl"):
         return True
-    return any(deployments.is_meant(engine, word) for engine in _known())
+    if any(deployments.is_meant(engine, word) for engine in _known()):
+        return True
+    return deployments.find_hosted(word) is not None
 
 
 def is_running(word: str) -> bool:

@@ -20,12 +20,11 @@ from robocomp_dsl.deploy.content.folder_scan import (
     scan_folder,
 )
 from robocomp_dsl.deploy.content.hash_cache import HashCache
-from robocomp_dsl.deploy.content.named_files import NamedFile, NamedFiles, named_files, place_of
+from robocomp_dsl.deploy.content.named_files import NamedFile, NamedFileFinder, NamedFiles, place_of
 from robocomp_dsl.deploy.content.tree import ContentTree, TreeFile, make_tree
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.deploy.preflight import search_config, short_path
 from robocomp_dsl.diagnostics import Code, Diagnostic, Report
-from robocomp_dsl.model.connection_index import ConnectionIndex
 from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.runtime.parameters import ConfigError
 
@@ -78,18 +77,28 @@ class TreeDescriber:
 
     def __init__(self, deployment: Deployment, plan: Plan, hashes: HashCache) -> None:
         self.hashes = hashes
-        self._path = deployment.path
-        self._connections = ConnectionIndex(deployment.connections)
+        self._finder = NamedFileFinder(deployment.path, deployment.connections)
         names = (process.name for process in plan.components)
         self._instances = dict(zip(names, deployment.instances, strict=True))
         self._scans: dict[str, FolderScan] = {}
+        self._trees: dict[object, ContentTree] = {}
         self._hashed: dict[str, str | ScanProblem] = {}
 
     def describe(self, process: Process, report: Report) -> ContentTree:
         """The tree of one process; files that cannot be copied are findings."""
         members = [self._member(member) for member in process.members or (process,)]
-        working_folder = process.cwd.resolve()
-        anchors = [working_folder] if process.members else [working_folder.parent]
+        key = tuple((member.folder, member.named, member.searched) for member in members)
+        if key in self._trees and not any(member.searched for member in members):
+            return self._trees[key]
+        before = len(report)
+        tree = self._tree(self._finder.resolve(process.cwd), members, report)
+        _report_size(members[0].instance, tree, report)
+        if len(report) == before:
+            self._trees[key] = tree
+        return tree
+
+    def _tree(self, folder: Path, members: Sequence[_Member], report: Report) -> ContentTree:
+        anchors = [folder] if len(members) > 1 else [folder.parent]
         anchors += [path for member in members for path in member.anchors()]
         origin = os.path.commonpath(anchors)
         entries: list[TreeFile] = []
@@ -100,9 +109,9 @@ class TreeDescriber:
                 found += self._named(file, problems)
             entries += self._hash_all(found, origin, problems)
             _report_problems(member.instance, problems, report)
-        tree = make_tree(
+        return make_tree(
             Path(origin),
-            os.path.relpath(working_folder, origin),
+            os.path.relpath(folder, origin),
             entries,
             [os.path.relpath(path, origin) for member in members for path in member.named.folders],
             _names([path for member in members for path in member.paths()], origin),
@@ -112,20 +121,13 @@ class TreeDescriber:
                 if member.searched
             ],
         )
-        _report_size(members[0].instance, tree, report)
-        return tree
 
     def _member(self, process: Process) -> _Member:
         instance = self._instances[process.name]
         searched = None if process.config else _search_config(instance, process)
-        named = named_files(
-            instance,
-            process,
-            self._connections.at(instance),
-            self._path,
-            process.config or searched,
-        )
-        return _Member(instance, process, process.cwd.resolve(), named, searched)
+        folder = self._finder.resolve(process.cwd)
+        named = self._finder.find(instance, folder, process.config or searched)
+        return _Member(instance, process, folder, named, searched)
 
     def _component_files(self, member: _Member, problems: list[ScanProblem]) -> Sequence[Status]:
         """The component's folder; a program is only the files that it names."""

@@ -124,6 +124,7 @@ class EnvironmentLocker:
             found, problems = close_requirements(requirements, markers)
             self._report_problems(problems, roots)
             version = package_version(complete=complete, hashes=self._hashes)
+            self._hashes.save()
             self._closures[key] = Environment(
                 self._python.minor, self._python.platform, version, found, complete
             )

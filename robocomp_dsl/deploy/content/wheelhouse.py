@@ -7,13 +7,15 @@ cache, from the installation here if it fits the host, or from the package index
 from __future__ import annotations
 
 import importlib.util
+import os
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
 import zipfile
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -99,17 +101,19 @@ class WheelStore:
         return Wheelhouse(tuple(wheels), self._wheel(uv, paths[uv])), []
 
     def _repack_all(
-        self, missing: Iterable[LockedDistribution], tags: frozenset[str]
+        self, missing: Sequence[LockedDistribution], tags: frozenset[str]
     ) -> dict[LockedDistribution, Path]:
         """Wheels of installations here that fit the host; their bytes are those that run here."""
-        found = {}
-        for locked in missing:
+
+        def repack_fitting(locked: LockedDistribution) -> Path | None:
             installed = find_installed(locked.name)
             if installed is None or installed.version != locked.version:
-                continue
-            if installed_tags(installed) & tags and (path := repack(installed, self._folder)):
-                found[locked] = path
-        return found
+                return None
+            return repack(installed, self._folder) if installed_tags(installed) & tags else None
+
+        with ThreadPoolExecutor(os.cpu_count()) as pool:  # compression releases the lock
+            paths = pool.map(repack_fitting, missing)
+            return {locked: path for locked, path in zip(missing, paths, strict=True) if path}
 
     def _package_wheel(self, environment: Environment) -> Path:
         version = environment.package_version

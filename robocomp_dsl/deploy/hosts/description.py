@@ -12,7 +12,7 @@ from itertools import groupby
 
 from robocomp_dsl.deploy.content.relocate import relocate
 from robocomp_dsl.deploy.content.tree import ContentTree
-from robocomp_dsl.deploy.hosts import engine_codes
+from robocomp_dsl.deploy.hosts import codes_engine
 from robocomp_dsl.deploy.hosts.host_network import HostNetwork, first_component
 from robocomp_dsl.deploy.hosts.manifest import HostedComponent, HostManifest
 from robocomp_dsl.deploy.hosts.registry import HostedDeployment
@@ -34,12 +34,14 @@ class HostSettings:
 
     `interpreter` is the Python of the plan; `runtime` is the hash of the environment that runs
     helpers and programs, `environments` are those of components by name of the process.
+    `controllers` are those of cgroups that the manager of the host may set.
     """
 
     interpreter: str
     runtime: str
     environments: Mapping[str, str] = field(default_factory=dict)
     network: HostNetwork = field(default_factory=HostNetwork)
+    controllers: tuple[str, ...] = ()
 
     def environment_of(self, process: str) -> str:
         """The hash of the environment in which a process runs."""
@@ -111,7 +113,14 @@ def _describe_host(
     ]
     routers, more = _describe_router(name, plan, root, settings)
     python = environment_python(root, settings.runtime)
-    units = host_units(valid, plan.name, root=root, python=python, more=more)
+    units = host_units(
+        valid,
+        plan.name,
+        root=root,
+        python=python,
+        more=more,
+        controllers=settings.controllers,
+    )
     required = tuple(router.name for router in routers)
     components = [_component(name, process, plan, trees, required) for _, process in members]
     users = tuple(component.name for component in components)
@@ -173,7 +182,7 @@ def _is_valid(instance: Instance, hosted: HostedProcess, deployment: str, report
         service_unit(hosted, deployment, frozenset())
     except UnitValueError as error:
         report.add(
-            engine_codes.UNIT_VALUE,
+            codes_engine.UNIT_VALUE,
             instance.span,
             f"`{instance.name}`: {error}",
             help="change the value, or keep it in a configuration file",

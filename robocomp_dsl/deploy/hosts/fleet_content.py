@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import sys
+import time
 from collections.abc import Callable, Mapping
 
 from robocomp_dsl.deploy.content.collect import collect_garbage
@@ -40,8 +41,8 @@ from robocomp_dsl.deploy.units import names
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.deployment import Deployment
 
-PROGRESS_BYTES = 20_000_000
-"""A copy reports its progress in steps of so many bytes."""
+PROGRESS_S = 5.0
+"""A long copy reports its progress so often."""
 
 
 class FleetContent:
@@ -74,6 +75,7 @@ class FleetContent:
                 content.runtime.hash,
                 {process: each.hash for process, each in content.environments.items()},
                 self._networks.get(name, HostNetwork()),
+                facts[name].controllers,
             )
             for name, content in self._contents.items()
         }
@@ -118,8 +120,9 @@ class FleetContent:
             if (check := checks.get(name)) is None or check.is_complete:
                 return
             result = await copy_content(agent.connection, check, _Progress(name, say).report)
+            files = f"{result.files} file{'s' * (result.files != 1)}"
             size = format_bytes(result.bytes)
-            say(f"{name}: copied {result.files} files, {size} in {result.seconds:.1f} s")
+            say(f"{name}: copied {files}, {size} in {result.seconds:.1f} s")
 
         await fleet.each(copy)
         await copy_private_files(fleet, self._plan.name, self._networks)
@@ -141,9 +144,9 @@ class _Progress:
     def __init__(self, host: str, say: Callable[[str], object]) -> None:
         self._host = host
         self._say = say
-        self._next = PROGRESS_BYTES
+        self._next = time.monotonic() + PROGRESS_S
 
     def report(self, copied: int, total: int) -> None:
-        if copied >= self._next and copied < total:
-            self._next = copied + PROGRESS_BYTES
+        if copied < total and time.monotonic() > self._next:
+            self._next = time.monotonic() + PROGRESS_S
             self._say(f"{self._host}: {format_bytes(copied)} of {format_bytes(total)}")

@@ -10,11 +10,10 @@ import asyncio
 import contextlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from importlib import import_module
 
 from robocomp_dsl.deploy.hosts import codes
 from robocomp_dsl.deploy.hosts.address import describe_host
-from robocomp_dsl.deploy.hosts.connection import HostConnection, connect
+from robocomp_dsl.deploy.hosts.connection import HostConnection, connect, load_ssh
 from robocomp_dsl.deploy.hosts.errors import HostError
 from robocomp_dsl.deploy.hosts.host_facts import MIN_PYTHON, HostFacts, fetch_facts
 from robocomp_dsl.deploy.status import format_duration
@@ -89,7 +88,7 @@ async def check_hosts(
     """
     checked = CheckedHosts(used_hosts(deployment) if hosts is None else tuple(hosts))
     if not all(host.is_local for host in checked.hosts):
-        import_module("robocomp_dsl.deploy.hosts.ssh")  # reports a missing library now
+        load_ssh()
     try:
         async with asyncio.TaskGroup() as tasks:
             for host in checked.hosts:

@@ -44,6 +44,7 @@ from robocomp_dsl.deploy.units import names as unit_names
 
 STATUS_TIMEOUT_S = 5.0
 """A host that does not answer within this time is shown as unreachable."""
+LIFECYCLE_STATES = ("initialize", "compute", "emergency", "finalize")
 Result = TypeVar("Result")
 Report = Callable[[str], object]
 
@@ -291,7 +292,9 @@ def host_rows(report: HostReport) -> list[ProcessStatus]:
 
 def component_status(component: HostedComponent, state: UnitState) -> ProcessStatus:
     """The status of one component. Its lifecycle is what it told systemd."""
-    life, _, reason = state.text.partition(": ") if not component.is_program else ("", "", "")
+    life, _, reason = state.text.partition(": ")
+    if life not in LIFECYCLE_STATES:
+        life, reason = "", state.text
     note = state.note or (reason if state.pid else "")
     return ProcessStatus(
         component.name,
@@ -301,8 +304,8 @@ def component_status(component: HostedComponent, state: UnitState) -> ProcessSta
         restarts=state.restarts,
         cpu=state.cpu,
         memory=state.memory,
-        note=note or (state.text if component.is_program and state.pid else ""),
-        life=life if state.pid else "",
+        note=note,
+        life=life if state.pid and not component.is_program else "",
         members=tuple((name, life) for name in component.member_names) if state.pid else (),
         host=component.host,
     )

@@ -79,7 +79,7 @@ def _host_network(
     text = router_settings(deployment, host, rules).encode()
     settings = {router: f"{PRIVATE}/router-{_revision(text)}.json"}
     files |= own | {settings[router]: text}
-    revisions = {router: _revision(text, *own.values())}
+    revisions = {router: f"{_revision(text)}-{_revision(*own.values())}"}
     for process, instance in owners:
         if process.is_program or host_name(instance.host) != host_name(host):
             continue

@@ -16,6 +16,7 @@ from robocomp_dsl.deploy.hosts.rollout import raise_failures
 from robocomp_dsl.deploy.network.identities import host_name
 from robocomp_dsl.deploy.placement.host_load import HostLoad
 from robocomp_dsl.deploy.placement.place import is_placed, place
+from robocomp_dsl.deploy.placement.placement_choice import PlacementChoice
 from robocomp_dsl.deploy.placement.placement_text import placement_lines
 from robocomp_dsl.deploy.plan import Plan, plan
 from robocomp_dsl.diagnostics import Diagnostic
@@ -24,12 +25,13 @@ from robocomp_dsl.model.deployment import Deployment, Host
 
 @dataclass(frozen=True, slots=True)
 class PlacedPlan:
-    """A deployment with a host for each component, its plan, and the choices as text."""
+    """A deployment with a host for each component, its plan, and the choices, also as text."""
 
     deployment: Deployment
     plan: Plan
     findings: Sequence[Diagnostic]
     lines: Sequence[str]
+    choices: Sequence[PlacementChoice]
 
 
 def candidate_hosts(deployment: Deployment) -> tuple[Host, ...]:
@@ -66,7 +68,11 @@ async def place_on(fleet: Fleet, deployment: Deployment, before: Plan) -> Placed
         result.deployment, name=before.name, domain=before.domain, interpreter=sys.executable
     )
     return PlacedPlan(
-        result.deployment, placed, result.findings, list(placement_lines(result.choices))
+        result.deployment,
+        placed,
+        result.findings,
+        list(placement_lines(result.choices)),
+        result.choices,
     )
 
 

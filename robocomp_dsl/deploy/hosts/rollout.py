@@ -16,7 +16,9 @@ from dataclasses import dataclass, field
 from robocomp_dsl.deploy.hosts import codes
 from robocomp_dsl.deploy.hosts.connection import Upload
 from robocomp_dsl.deploy.hosts.differences import (
+    RELOAD,
     RESTART,
+    START,
     STOP,
     HostChanges,
     compare,
@@ -111,8 +113,10 @@ async def roll_out(
     await copy(fleet)
     raise_failures(fleet)
     if not version:
+        # A start of what is deployed already is no new version.
+        is_new = any(each.written or each.removed for each in changes)
         stored = (number for host in reports.values() for number in host.versions)
-        version = max(stored, default=0) + 1 if changes else current
+        version = max(stored, default=0) + 1 if is_new else current
         described = {
             host: manifest.numbered(version, time.time(), describe_author())
             for host, manifest in described.items()
@@ -201,10 +205,11 @@ async def _start(
         change.component: change.verb
         for each in result.changes
         for change in each.components
-        if change.verb != STOP
+        if change.verb in (START, RESTART)
     }
     runner = UnitRunner(fleet.agents, components, report)
-    await start_helpers(fleet, described)
+    await start_helpers(fleet, described, result.changes)
+    await _reload(fleet, described, result.changes, report)
     await runner.watch()
     ordered = [name for name in components if name in verbs]
     await runner.start(ordered, {name for name, verb in verbs.items() if verb == RESTART})
@@ -212,8 +217,27 @@ async def _start(
     await enable(fleet, described)
 
 
-async def start_helpers(fleet: Fleet, described: Mapping[str, HostManifest]) -> None:
-    """Start the units that are no components, such as the timer of the logs and the router."""
+async def _reload(
+    fleet: Fleet,
+    described: Mapping[str, HostManifest],
+    changes: Iterable[HostChanges],
+    report: Report,
+) -> None:
+    """Let routers read their settings again, before components need them."""
+    for each in changes:
+        deployed = described[each.host].components if each.host in described else ()
+        units = {component.name: component.unit for component in deployed}
+        for change in each.components:
+            if change.verb == RELOAD:
+                await fleet.agents[each.host].systemctl("reload", [units[change.component]])
+                report(f"{change.component} ({each.host}): reloaded")
+
+
+async def start_helpers(
+    fleet: Fleet, described: Mapping[str, HostManifest], changes: Iterable[HostChanges] = ()
+) -> None:
+    """Start the units that are no components, such as the timer of the logs."""
+    written = {each.host: each.written for each in changes}
 
     async def start(agent: HostAgent) -> None:
         if manifest := described.get(agent.host.name):
@@ -221,7 +245,9 @@ async def start_helpers(fleet: Fleet, described: Mapping[str, HostManifest]) -> 
             target = names.target_name(manifest.deployment)
             once = names.log_trim_name(manifest.deployment, "service")
             helpers = [u for u in manifest.units if u not in own and u not in (target, once)]
-            await agent.systemctl("start", helpers)
+            again = [unit for unit in helpers if unit in written.get(agent.host.name, ())]
+            await agent.systemctl("restart", again)
+            await agent.systemctl("start", [unit for unit in helpers if unit not in again])
 
     await fleet.each(start)
     raise_failures(fleet)

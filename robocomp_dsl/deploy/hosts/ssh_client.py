@@ -93,6 +93,7 @@ async def _connect(host: Host, check: HostKeyCheck, **options: Any) -> asyncssh.
         x509_trusted_certs=None,
         password_auth=False,
         kbdint_auth=False,
+        gss_kex=False,  # it proves the host by Kerberos instead of its key
         ignore_encrypted=True,
         keepalive_interval=KEEPALIVE_S,
         keepalive_count_max=KEEPALIVE_COUNT,

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 from robocomp_dsl.deploy.network.identities import (
     OPERATOR,
     common_name,
+    process_names,
     router_name,
     used_hosts,
 )
@@ -50,7 +51,10 @@ class Grant(NamedTuple):
 
 
 class ComponentAccess(ValueRecord):
-    """What one component may do; `name` is the common name of its certificate."""
+    """What one component, or the components of one process, may do.
+
+    `name` is the common name of its certificate.
+    """
 
     name: str
     uses: tuple[PortUse, ...]
@@ -87,14 +91,25 @@ def access_rules(
     deployment: Deployment, domain: str, rewirings: Iterable[Rewiring] = ()
 ) -> AccessRules:
     """The rules of a deployment in `domain`; `rewirings` are added to its connections."""
-    components = tuple(
-        ComponentAccess(
-            common_name(name), uses, tuple(dict.fromkeys(_Keys(domain, name).grants(uses)))
-        )
-        for name, uses in port_uses(deployment, rewirings).items()
-    )
+    processes = process_names(deployment)
+    members: dict[str, list[tuple[str, tuple[PortUse, ...]]]] = {}
+    for name, uses in port_uses(deployment, rewirings).items():
+        members.setdefault(common_name(processes[name]), []).append((name, uses))
+    components = tuple(_access(domain, name, parts) for name, parts in members.items())
     routers = (router_name(host) for host in used_hosts(deployment))
     return AccessRules(domain, components, (OPERATOR, *routers))
+
+
+def _access(
+    domain: str, name: str, members: Iterable[tuple[str, tuple[PortUse, ...]]]
+) -> ComponentAccess:
+    """What the members of a process may do together."""
+    uses: dict[PortUse, None] = {}
+    grants: dict[Grant, None] = {}
+    for member, own in members:
+        uses |= dict.fromkeys(own)
+        grants |= dict.fromkeys(_Keys(domain, member).grants(own))
+    return ComponentAccess(name, tuple(uses), tuple(grants))
 
 
 def _rule(

@@ -15,6 +15,8 @@ from robocomp_dsl.deploy.units.service import (
     log_mark,
 )
 
+SETTINGS_FILE = "private/router.json"
+"""The settings in force, below the folder of the deployment."""
 MODULE = "robocomp_dsl.runtime.router"
 START_TIMEOUT_S = 30
 WATCHDOG_S = 10
@@ -24,8 +26,9 @@ WATCHDOG_S = 10
 class HostedRouter:
     """The router of a host. `root`, `python` and `settings` are paths as in `HostedProcess`.
 
-    `name` is that of its certificate; `revision` changes with its settings and keys, `environment`
-    with the packages that it needs.
+    `name` is that of its certificate. `settings` is the file of this version, which replaces
+    `router.json` when the router starts or reloads. `revision` changes with the settings and keys,
+    `environment` with the packages that it needs.
     """
 
     name: str
@@ -39,7 +42,9 @@ class HostedRouter:
 def router_unit(router: HostedRouter, deployment: str) -> str:
     """The text of the unit. systemd starts a router again, however often it ends."""
     log = path(f"{router.root}/{names.log_file(router.name)}", HOST_PATHS)
-    command = [router.python, "-m", MODULE, router.settings, "--log-format", "json"]
+    settings = f"{router.root}/{SETTINGS_FILE}"
+    command = [router.python, "-m", MODULE, settings, "--log-format", "json"]
+    copy = command_line(["/usr/bin/env", "cp", "-f", router.settings, settings], HOST_PATHS)
     head = [
         "[Unit]",
         f"Description={path(f'{router.name} of {deployment}')}",
@@ -51,7 +56,10 @@ def router_unit(router: HostedRouter, deployment: str) -> str:
         "Type=notify",
         "NotifyAccess=all",
         f"ExecStartPre={log_mark('starting')}",
+        f"ExecStartPre={copy}",
         f"ExecStart={command_line(command, HOST_PATHS)}",
+        f"ExecReload={copy}",
+        "ExecReload=/bin/kill -HUP $MAINPID",
         f"TimeoutStartSec={START_TIMEOUT_S}",
         f"WatchdogSec={WATCHDOG_S}",
         "WatchdogSignal=SIGTERM",
@@ -64,6 +72,6 @@ def router_unit(router: HostedRouter, deployment: str) -> str:
         f"StandardError=append:{log}",
     ]
     identity = ["[X-RoboComp]", f"Component={path(router.name)}"]
-    for key, value in (("Settings", router.revision), ("Environment", router.environment)):
-        identity += [f"{key}={value}"] if value else []
-    return join_sections(head, service, identity)
+    identity += [f"Environment={router.environment}"] if router.environment else []
+    # A router reloads new settings; it need not start again.
+    return f"{join_sections(head, service, identity)}Settings={router.revision}\n"

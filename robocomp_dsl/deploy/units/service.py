@@ -28,7 +28,15 @@ _MARK = '+{"time": %s.%N, "level": "INFO", "message": "'
 """A log line as a format of date(1). It dates the lines of programs, which have no time."""
 END_TEXT = "ended: ${EXIT_CODE} ${EXIT_STATUS} (${SERVICE_RESULT})"
 """systemd.exec(5) sets the variables."""
-READINESS = "robocomp_dsl.deploy.units.wait_until_ready"
+READINESS = "robocomp_dsl.host_tools.wait_until_ready"
+_WITHOUT_RESTART = frozenset(
+    {
+        "ExecReload", "ExecStartPost", "ExecStartPre", "ExecStopPost", "KillMode", "Restart",
+        "RestartSec", "RestartForceExitStatus", "SuccessExitStatus", "TimeoutStartSec",
+        "TimeoutStopSec",
+    }
+)  # fmt: skip
+"""Settings that systemd takes over while the process runs, as those of the order."""
 _WATCHDOG_VARIABLE = "WATCHDOG_USEC"
 _CLEAN_SIGNALS = "SIGHUP SIGINT SIGTERM SIGPIPE"
 """Ends that are a success for systemd, and a failure for rcdeploy unless it stops the process."""
@@ -62,15 +70,23 @@ def service_unit(hosted: HostedProcess, deployment: str, on_host: frozenset[str]
 
 def join_sections(head: list[str], service: list[str], identity: list[str]) -> str:
     """The text of a service, with its revision in the environment of the process."""
-    # The process itself does not depend on the order of the start, nor on how often it may start.
-    revision = hashlib.sha256("\n".join([*service, *identity]).encode()).hexdigest()[:16]
+    lasting = [line for line in service if line.partition("=")[0] not in _WITHOUT_RESTART]
+    revision = hashlib.sha256("\n".join([*lasting, *identity]).encode()).hexdigest()[:16]
     service = [*service, f"Environment={REVISION_VARIABLE}={revision}"]
     return "\n".join([*head, "", *service, "", *identity]) + "\n"
 
 
 def find_revision(text: str) -> str:
     """The revision in the text of a unit, "" if it has none."""
-    key = f"Environment={REVISION_VARIABLE}="
+    return _find(text, f"Environment={REVISION_VARIABLE}=")
+
+
+def find_settings(text: str) -> str:
+    """What identifies the settings in the text of a router's unit, "" for other units."""
+    return _find(text, "Settings=")
+
+
+def _find(text: str, key: str) -> str:
     return next((line[len(key) :] for line in text.splitlines() if line.startswith(key)), "")
 
 

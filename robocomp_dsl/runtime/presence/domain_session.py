@@ -88,18 +88,23 @@ class DomainSession:
 
 
 def open_session(
-    domain: str, port: int = 0, name: str = "", *, hold_s: float = 0.0
+    domain: str,
+    port: int = 0,
+    name: str = "",
+    *,
+    hold_s: float = 0.0,
+    network: NetworkSettings | None = None,
 ) -> DomainSession:
     """Open a session in `domain`, which also listens on TCP `port` of loopback if not 0.
 
     With `name`, the session is that of a component, which no other component of the domain may be
     called. `hold_s`: how long a peer that receives nothing may hold a publication; 0: the default
-    of zenoh.
+    of zenoh. `network`: that of another session of this program; otherwise it is looked for.
 
     Raises `MiddlewareError` if the name is taken, or the folder, the port or the router cannot be
     used.
     """
-    network = find_network_settings(domain)
+    network = network or find_network_settings(domain)
     if network and port:
         raise MiddlewareError(
             f"port {port} cannot be used: in a network of hosts only routers listen; remove `port`"

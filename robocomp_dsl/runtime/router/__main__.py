@@ -63,10 +63,10 @@ def _signals(notifier: SystemdNotifier) -> Iterator[int]:
     """The signals that arrive; tells systemd meanwhile that the process does not hang."""
     interval = notifier.watchdog_s / 3 or 3600.0
     while True:
-        received = signal.sigtimedwait(_SIGNALS, interval)
-        notifier.ping()
-        if received:
+        if received := signal.sigtimedwait(_SIGNALS, interval):
             yield received.si_signo
+        else:
+            notifier.ping()
 
 
 if __name__ == "__main__":

@@ -17,13 +17,20 @@ from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.presence.close_session import close_client_session
 from robocomp_dsl.runtime.presence.keys import ROUTER_KEY, escape_chunk
 from robocomp_dsl.runtime.presence.network_settings import parse_endpoint
-from robocomp_dsl.runtime.presence.tls_settings import RETRY, base_settings, tls_settings
+from robocomp_dsl.runtime.presence.tls_settings import (
+    RETRY,
+    base_settings,
+    drop_settings,
+    tls_settings,
+)
 from robocomp_dsl.runtime.router.refusals import RefusalLog
 from robocomp_dsl.runtime.router.router_settings import RouterSettings
 from robocomp_dsl.runtime.router.zenoh_log import ZenohLog
 
 log = logging.getLogger("robocomp.router")
 MAX_LINKS = 10000
+HOLD_S, HOLD_LARGE_S = 0.05, 0.5
+"""How long a link that takes nothing may hold messages; 64 MB take 0.2 s over loopback."""
 
 
 class Router:
@@ -137,5 +144,6 @@ def _zenoh_settings(settings: RouterSettings) -> dict[str, Any]:
         "transport/unicast/max_sessions": MAX_LINKS,
         "access_control": settings.access,
         **base_settings(),
+        **drop_settings(HOLD_S, HOLD_LARGE_S),
         **tls_settings(files.ca, files.certificate, files.key, listen=True),
     }

@@ -7,6 +7,7 @@ import contextlib
 import hashlib
 import json
 import os
+import sys
 from collections.abc import AsyncIterator, Sequence
 from pathlib import Path
 
@@ -242,9 +243,6 @@ def run_until(step: int, function: str, request: dict[str, object]) -> bool:
                     os._exit(9)
 
         try:
-            os.sync = lambda: None  # minutes, if each of some hundred children does it
-            import sys  # noqa: PLC0415
-
             sys.addaudithook(kill_at_step)
             getattr(host_files, function)(request)
             os._exit(0)

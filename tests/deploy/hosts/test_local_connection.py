@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import sys
 from collections.abc import Coroutine
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,16 @@ from robocomp_dsl.deploy.hosts.errors import HostTimeout, HostWriteError
 from robocomp_dsl.model.deployment import Host
 
 HERE = Host("here", "localhost")
+NOISY = """\
+import sys
+input()
+sys.stderr.write("x" * 3_000_000 + "last words")
+sys.stderr.flush()
+print("y" * 3_000_000)
+print("end")
+sys.exit(5)
+"""
+"""Writes more than a pipe holds, and errors first."""
 
 
 @pytest.fixture(autouse=True)
@@ -50,6 +61,12 @@ def test_local_connection_runs_commands(home: Path, monkeypatch: pytest.MonkeyPa
         await process.write(b"line\n")
         assert await process.readline() == b"line\n"
         assert (await process.close()).code == 0
+        noisy = await connection.start([sys.executable, "-c", NOISY])
+        await noisy.write(b"go\n")
+        assert len(await noisy.readline()) == 3_000_001
+        ended = await noisy.close()
+        assert (ended.code, ended.stdout) == (5, b"end\n")
+        assert ended.stderr.endswith(b"last words")
         await connection.close()
 
     run(session())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import sys
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ import pytest
 from robocomp_dsl.deploy.hosts import ssh_client
 from robocomp_dsl.deploy.hosts.connection import connect
 from robocomp_dsl.deploy.hosts.errors import HostError
+from robocomp_dsl.extras import MissingExtra
 from robocomp_dsl.model.deployment import Host
 
 
@@ -44,10 +46,7 @@ def failure_at(greeting: bytes | None) -> HostError:
     ("greeting", "message"),
     [
         (b"HTTP/1.1 400 Bad Request\r\n\r\n", "the connection was closed before the login"),
-        (
-            b"SSH-1.5-old\r\n",
-            "what answers at the address is no SSH server (Unsupported SSH version)",
-        ),
+        (b"SSH-1.5-old\r\n", "no SSH server (Unsupported SSH version)"),
         (b"", "the connection was closed before the login"),
         (None, "no answer within 0.2 s"),
     ],
@@ -74,3 +73,11 @@ def test_ssh_failure_describes_broken_key_files(home: Path) -> None:
     (home / ".ssh/broken").write_text("no key", "utf-8")
     (home / ".ssh/config").write_text("Host *\n  IdentityFile ~/.ssh/broken\n", "utf-8")
     assert "an SSH key of yours cannot be read" in str(failure_at(b""))
+
+
+def test_missing_library_is_reported_before_any_connection(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("ssh", "ssh_client"):
+        monkeypatch.delitem(sys.modules, f"robocomp_dsl.deploy.hosts.{name}", raising=False)
+    monkeypatch.setitem(sys.modules, "asyncssh", None)
+    with pytest.raises(MissingExtra, match=r"pip install 'robocomp_dsl\[hosts\]'"):
+        asyncio.run(connect(Host("arm", "10.0.0.2")))

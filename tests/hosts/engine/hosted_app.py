@@ -20,6 +20,7 @@ from robocomp_dsl.deploy.network.identities import identities
 from robocomp_dsl.deploy.network.key_folder import key_folder
 from robocomp_dsl.deploy.network.update_keys import update_keys
 from robocomp_dsl.deploy.status import ProcessStatus
+from robocomp_dsl.model.deployment import Host
 from tests.deploy.generated_components import generate_components
 from tests.hosts.rig.hosts import Hosts
 
@@ -69,6 +70,9 @@ class HostedApp:
         assert checked.deployment
         return Deployer(checked.deployment, checked.plan, self.lines.append)
 
+    def hosts_of_deployment(self) -> list[Host]:
+        return [Host(name, h.address, h.user) for name, h in self.hosts.by_name.items()]
+
     def make_keys(self) -> None:
         """As `rcdeploy keys`."""
         deployment = self.checked().deployment
@@ -111,9 +115,9 @@ class HostedApp:
         return {name: row.pid for name, row in self.rows().items()}
 
 
-def make_app(folder: Path, hosts: Hosts) -> HostedApp:
-    """Generate the components in `folder`."""
+def make_app(folder: Path, hosts: Hosts, eye: str = EYE) -> HostedApp:
+    """Generate the components in `folder`; `eye` is the body of its worker."""
     folder.mkdir()
-    generate_components(folder, {"arm": ARM, "eye": EYE})
+    generate_components(folder, {"arm": ARM, "eye": eye})
     hosts.trust()
     return HostedApp(folder, hosts)
