@@ -62,7 +62,7 @@ def router_service(name: str) -> str:
 def moved_to(deployment: Deployment, host: Host) -> Deployment:
     """The deployment with all components at `host`."""
     changed = {i.name: i.replace(host=host) for i in deployment.instances}
-    return with_instances(deployment, changed)
+    return with_instances(deployment, changed).replace(hosts=(host,))
 
 
 def router_text(exported: ExportedDeployment, host: Host, *, listen: str) -> str:

@@ -22,7 +22,13 @@ from robocomp_dsl.deploy.hosts.description import (
     describe_hosts,
 )
 from robocomp_dsl.deploy.network.access_rules import access_rules
-from robocomp_dsl.deploy.network.identities import common_name, needs_network, router_name
+from robocomp_dsl.deploy.network.identities import (
+    common_name,
+    host_name,
+    needs_network,
+    router_name,
+    used_hosts,
+)
 from robocomp_dsl.deploy.network.key_folder import file_name
 from robocomp_dsl.deploy.network.router_plan import component_settings, router_settings
 from robocomp_dsl.deploy.plan import plan
@@ -103,7 +109,8 @@ def _network_files(
     deployment: Deployment, domain: str, host: Host
 ) -> Iterator[tuple[str, ExportFile]]:
     rules = access_rules(deployment, domain)
-    yield f"{host.name}/{ROUTER_FILE}", ExportFile(router_settings(deployment, host, rules))
+    used = next(each for each in used_hosts(deployment) if host_name(each) == host.name)
+    yield f"{host.name}/{ROUTER_FILE}", ExportFile(router_settings(deployment, used, rules))
     for instance in deployment.instances:
         if _is_on(instance.host, host) and not instance.is_program:
             text = component_settings(deployment, instance)
