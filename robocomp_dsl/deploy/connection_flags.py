@@ -17,15 +17,20 @@ from robocomp_dsl.model.port_middlewares import port_middlewares
 from robocomp_dsl.model.qos_text import format_qos
 
 
-def middleware_flags(deployment: Deployment, instance: Instance) -> list[str]:
-    """`--middleware` where the deployment says something, and `--address`."""
+def middleware_flags(
+    deployment: Deployment, instance: Instance, connections: Sequence[Connection]
+) -> list[str]:
+    """`--middleware` where the deployment says something, and `--address`.
+
+    `connections` are those of `instance`.
+    """
     component = instance.component
     chosen = instance.middleware
     if not chosen and component.middleware_span is None:
         chosen = deployment.middleware
     flags = ["--middleware", chosen] if chosen else []
     for port in component.ports:
-        names = port_middlewares(instance, port, deployment.connections, deployment.middleware)
+        names = port_middlewares(instance, port, connections, deployment.middleware)
         without_flag = port.middlewares or (chosen or component.middleware,)
         if names != without_flag:
             flags += ["--middleware", f"{port.name}={','.join(names)}"]

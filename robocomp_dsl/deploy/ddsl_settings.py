@@ -7,10 +7,12 @@ new text of the file. An edit is verified: the new text has the same tree but fo
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
+from robocomp_dsl.deploy.write_text import CannotWrite, write_text
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.runtime.parameters.overrides import parse_path
 from robocomp_dsl.source import Source, UnreadableSource
@@ -39,8 +41,7 @@ def find_setting(path: Path, instance: str, parameter: str) -> WrittenSetting | 
         source = Source.read(path)
     except UnreadableSource:
         return None
-    tree = _find_instance(parse(source, Report()), instance)
-    setting = _find_setting(tree, parameter) if tree else None
+    setting = _find_setting(_blocks_of(parse(source, Report()), instance), parameter)
     if setting is None:
         return None
     place = f"{path.name}:{setting.span.start_position[0]}"
@@ -54,10 +55,9 @@ def write_settings(path: Path, instance: str, values: dict[str, str]) -> None:
         text = path.read_bytes().decode("utf-8")
         for parameter, literal in values.items():
             text = edit_text(text, path, instance, parameter, literal)
-        new = path.with_name(f".{path.name}.new")
-        new.write_bytes(text.encode("utf-8"))
-        new.chmod(path.stat().st_mode & 0o777)
-        new.replace(path)
+        write_text(path, text)
+    except CannotWrite as error:
+        raise CannotEdit(str(error)) from None
     except UnicodeDecodeError:
         raise CannotEdit(f"{path} is not encoded in UTF-8") from None
     except OSError as error:
@@ -70,16 +70,17 @@ def edit_text(text: str, path: Path, instance: str, parameter: str, literal: str
     file = parse(Source(path, text), report)
     if report.has_errors:
         raise CannotEdit(f"{path.name} has errors; see `rcdeploy check {path.name}`")
-    tree = _find_instance(file, instance)
-    if tree is None:
+    blocks = _blocks_of(file, instance)
+    if not blocks:
         raise CannotEdit(f"{path.name} has no component `{instance}`")
-    setting = _find_setting(tree, parameter)
+    setting = _find_setting(blocks, parameter)
     if setting is not None:
         start, end = setting.value.span.start, setting.value.span.end
         new = text[:start] + literal + text[end:]
     else:
-        new = _insert(text, tree, f"set {parameter} = {literal};")
-    _verify(new, path, instance, parameter, literal, len(list(_instances(file))))
+        innermost, key = blocks[-1]
+        new = _insert(text, innermost, f"set {key}{parameter} = {literal};")
+    _verify(new, path, instance, parameter, literal, len(blocks))
     return new
 
 
@@ -91,7 +92,7 @@ def format_ddsl_literal(value: str, *, is_text: bool) -> str:
     return f'"{escaped}"'
 
 
-def _insert(text: str, tree: ast.Instance, statement: str) -> str:
+def _insert(text: str, tree: ast.Instance | ast.Group, statement: str) -> str:
     """`text` with a new statement: after the last `set`, or first in the block."""
     newline = "\r\n" if "\r\n" in text else "\n"
     if tree.settings:
@@ -99,7 +100,9 @@ def _insert(text: str, tree: ast.Instance, statement: str) -> str:
         indent = _indent_before(text, last.start)
         separator = " " if indent is None else f"{newline}{indent}"
         return f"{text[: last.end]}{separator}{statement}{text[last.end :]}"
-    head = tree.host or tree.component or tree.name
+    kind = tree.component if isinstance(tree, ast.Instance) else tree.definition
+    heads = (tree.name, kind, tree.host, tree.label)
+    head = max(filter(None, heads), key=lambda node: node.span.end)
     rest = text[head.span.end : tree.span.end]
     if brace := re.match(r"\s*\{", rest):
         position = head.span.end + brace.end()
@@ -117,38 +120,48 @@ def _indent_before(text: str, position: int) -> str | None:
 
 
 def _verify(
-    text: str, path: Path, instance: str, parameter: str, literal: str, instances: int
+    text: str, path: Path, instance: str, parameter: str, literal: str, blocks: int
 ) -> None:
     report = Report()
-    file = parse(Source(path, text), report)
-    tree = _find_instance(file, instance)
-    setting = _find_setting(tree, parameter) if tree else None
-    found = setting.value.span.text if setting else None
-    if report.has_errors or found != literal or len(list(_instances(file))) != instances:
+    found = _blocks_of(parse(Source(path, text), report), instance)
+    setting = _find_setting(found, parameter)
+    written = setting.value.span.text if setting else None
+    if report.has_errors or written != literal or len(found) != blocks:
         raise CannotEdit(f"write `set {parameter} = {literal};` into {path.name} yourself")
 
 
-def _find_instance(file: ast.File, full_name: str) -> ast.Instance | None:
-    return next((tree for name, tree in _instances(file) if name == full_name), None)
+_Block: TypeAlias = "tuple[ast.Instance | ast.Group, str]"
+"""A block whose `set` applies to an instance, and what its keys begin with there: `motor.`."""
 
 
-def _instances(file: ast.File) -> Iterator[tuple[str, ast.Instance]]:
-    """All instances with their full names: prefix, groups and name."""
-    if file.deployment is not None:
-        yield from _members(file.deployment, "")
+def _blocks_of(file: ast.File, full_name: str) -> list[_Block]:
+    """The blocks in which a parameter of an instance may be set, the outermost first.
+
+    The innermost is the instance, or the instance of a group whose definition contains it. Empty if
+    there is no such instance.
+    """
+    names = full_name.rpartition("/")[2].split("-")  # without the prefix, names are unique, too
+    scope: ast.Deployment | ast.Group | None = file.deployment
+    blocks: list[_Block] = []
+    for position, name in enumerate(names):
+        rest = names[position + 1 :]
+        instances = [tree for tree in scope.instances if tree.name.text == name] if scope else []
+        if instances and not rest:
+            return [*blocks, (instances[0], "")]
+        scope = next((g for g in scope.groups if g.name.text == name), None) if scope else None
+        if scope is None:
+            return []
+        blocks.append((scope, "".join(f"{each}." for each in rest)))
+        if scope.definition is not None:
+            return blocks if rest else []
+    return []
 
 
-def _members(scope: ast.Deployment | ast.Group, group: str) -> Iterator[tuple[str, ast.Instance]]:
-    for tree in scope.instances:
-        prefix = getattr(tree.prefix, "value", None) or getattr(tree.prefix, "text", "")
-        name = f"{group}{tree.name.text}"
-        yield (f"{prefix}/{name}" if prefix else name), tree
-    for inner in scope.groups:
-        yield from _members(inner, f"{group}{inner.name.text}-")
-
-
-def _find_setting(tree: ast.Instance, parameter: str) -> ast.Setting | None:
-    """The last `set` of a parameter, which is the one in force."""
-    path = parse_path(parameter)
-    same = (s for s in tree.settings if parse_path(s.key.text) == path)
-    return next(reversed(list(same)), None)
+def _find_setting(blocks: Sequence[_Block], parameter: str) -> ast.Setting | None:
+    """The `set` of a parameter that is in force: the last one of the outermost block."""
+    for tree, key in blocks:
+        path = parse_path(f"{key}{parameter}")
+        same = [setting for setting in tree.settings if parse_path(setting.key.text) == path]
+        if same:
+            return same[-1]
+    return None

@@ -62,6 +62,7 @@ def group_process(group: Group, members: Sequence[Process], interpreter: str) ->
         limits=group.limits,
         watchdog_s=_watchdog_s(members),
         host=members[0].host,
+        placement=members[0].placement,
         group=group.name.rpartition("-")[0],
         members=tuple(
             replace(

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.deploy import codes
 from robocomp_dsl.diagnostics import Diagnostic
+from robocomp_dsl.model.connection_index import ConnectionIndex
 from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.model.port_middlewares import IN_PROCESS, port_middlewares
 from robocomp_dsl.runtime.middleware.registry import missing_modules
@@ -36,11 +37,10 @@ def check_middlewares(deployment: Deployment, known: KnownMiddlewares) -> Iterat
 def _first_users(deployment: Deployment) -> dict[str, Instance]:
     """The middlewares of local components, each with the first instance that uses it."""
     users: dict[str, Instance] = {}
+    index = ConnectionIndex(deployment.connections)
     for instance in deployment.instances:
         for port in instance.component.ports if instance.host.is_local else ():
-            for name in port_middlewares(
-                instance, port, deployment.connections, deployment.middleware
-            ):
+            for name in port_middlewares(instance, port, index.at(instance), deployment.middleware):
                 if not (instance.process and name == IN_PROCESS):
                     users.setdefault(name, instance)
     return users

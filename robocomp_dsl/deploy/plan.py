@@ -7,7 +7,7 @@ command line with its connections, the environment, and the start and stop order
 from __future__ import annotations
 
 import shlex
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from graphlib import TopologicalSorter
 from pathlib import Path
@@ -16,10 +16,13 @@ from robocomp_dsl.deploy.connection_flags import connection_flags, middleware_fl
 from robocomp_dsl.deploy.devices import describe_devices, devices_environment
 from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.group_processes import join_groups
-from robocomp_dsl.deploy.plan_text import describe_clock, describe_host
+from robocomp_dsl.deploy.plan_text import describe_clock, describe_host, describe_placement
+from robocomp_dsl.deploy.planned_group import PlannedGroup, planned_groups
 from robocomp_dsl.deploy.process import Process
+from robocomp_dsl.model.connection_index import ConnectionIndex
 from robocomp_dsl.model.deployment import (
     Clock,
+    Connection,
     Deployment,
     External,
     ExternalConnection,
@@ -61,6 +64,7 @@ class Plan:
     clock: str = "wall"
     externals: tuple[ExternalProgram, ...] = ()
     external_connections: tuple[ExternalConnection, ...] = ()
+    groups: tuple[PlannedGroup, ...] = ()
 
     @property
     def components(self) -> tuple[Process, ...]:
@@ -83,11 +87,18 @@ def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) ->
     """The processes of `deployment`. `interpreter` replaces `python3` in command lines."""
     full = {instance.name: instance.full_name for instance in deployment.instances}
     order = {name: i for i, name in enumerate(full)}
+    index = ConnectionIndex(deployment.connections)
+    followers = _followers(deployment)
     components = [
         replace(
-            _process(deployment, instance, domain, interpreter),
+            _process(deployment, instance, domain, interpreter, index.at(instance)),
             after=tuple(full[name] for name in instance.after),
-            stops_after=tuple(full[n] for n in _stops_after(instance.name, deployment, order)),
+            stops_after=tuple(
+                full[name]
+                for name in _stops_after(
+                    instance, followers[instance.name], index.at(instance), order
+                )
+            ),
         )
         for instance in deployment.instances
     ]
@@ -100,16 +111,18 @@ def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) ->
         describe_clock(deployment.clock),
         tuple(_external(external, deployment) for external in deployment.externals),
         deployment.external_connections,
+        planned_groups(deployment),
     )
 
 
 def used_middlewares(deployment: Deployment) -> tuple[str, ...]:
     """The middlewares that the ports of a deployment use, in order of first use."""
+    index = ConnectionIndex(deployment.connections)
     names = {
         name: None
         for instance in deployment.instances
         for port in instance.component.ports
-        for name in port_middlewares(instance, port, deployment.connections, deployment.middleware)
+        for name in port_middlewares(instance, port, index.at(instance), deployment.middleware)
     }
     return tuple(names)
 
@@ -158,13 +171,20 @@ def format_literal(value: Literal) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _process(deployment: Deployment, instance: Instance, domain: str, interpreter: str) -> Process:
+def _process(
+    deployment: Deployment,
+    instance: Instance,
+    domain: str,
+    interpreter: str,
+    connections: Sequence[Connection],
+) -> Process:
+    """The process of `instance`, which has the `connections`."""
     clock = deployment.clock
     stops_all = clock.stop_on_timeout and clock.source is instance
     return Process(
         name=instance.full_name,
         component="program" if instance.is_program else instance.component.name,
-        argv=tuple(_command_line(deployment, instance, domain, interpreter)),
+        argv=tuple(_command_line(deployment, instance, domain, interpreter, connections)),
         cwd=instance.component.path.parent,
         env=(
             *instance.environment,
@@ -182,6 +202,7 @@ def _process(deployment: Deployment, instance: Instance, domain: str, interprete
         config_name=instance.config_name,
         settings=format_settings(instance),
         host=describe_host(instance.host),
+        placement=describe_placement(instance),
         group=instance.group,
         devices=describe_devices(instance.devices),
         is_program=instance.is_program,
@@ -201,7 +222,11 @@ def _watchdog_environment(instance: Instance) -> tuple[tuple[str, str], ...]:
 
 
 def _command_line(
-    deployment: Deployment, instance: Instance, domain: str, interpreter: str
+    deployment: Deployment,
+    instance: Instance,
+    domain: str,
+    interpreter: str,
+    connections: Sequence[Connection],
 ) -> list[str]:
     command = shlex.split(instance.executable)
     if command and command[0] in PYTHON_PROGRAMS:
@@ -211,7 +236,7 @@ def _command_line(
     argv = [*command, "--name", instance.name]
     argv += ["--prefix", instance.prefix] if instance.prefix else []
     argv += ["--domain", domain]
-    argv += middleware_flags(deployment, instance)
+    argv += middleware_flags(deployment, instance, connections)
     argv += ["--log-format", "json"]
     argv += ["--config", str(instance.config)] if instance.config else []
     argv += ["--context", instance.context] if instance.context else []
@@ -221,7 +246,7 @@ def _command_line(
     argv += _watchdog_flags(instance)
     if deployment.clock.source:
         argv += ["--clock", format_clock(deployment.clock, instance, deployment.instances)]
-    return argv + connection_flags(instance, deployment.connections)
+    return argv + connection_flags(instance, connections)
 
 
 def _watchdog_flags(instance: Instance) -> list[str]:
@@ -246,14 +271,30 @@ def format_clock(clock: Clock, instance: Instance, instances: Sequence[Instance]
     return settings.as_text()
 
 
-def _stops_after(name: str, deployment: Deployment, order: dict[str, int]) -> tuple[str, ...]:
-    """The components that use `name` and so stop before it: by `after`, or as later clients.
+def _followers(deployment: Deployment) -> dict[str, list[str]]:
+    """The instances that start after each instance."""
+    followers: dict[str, list[str]] = {instance.name: [] for instance in deployment.instances}
+    for instance in deployment.instances:
+        for name in instance.after:
+            if name in followers:
+                followers[name].append(instance.name)
+    return followers
+
+
+def _stops_after(
+    instance: Instance,
+    followers: Sequence[str],
+    connections: Sequence[Connection],
+    order: Mapping[str, int],
+) -> tuple[str, ...]:
+    """The components that use `instance` and so stop before it: by `after`, or as later clients.
 
     If two components use each other, the order of the deployment decides; there is no cycle.
     """
-    users = {instance.name for instance in deployment.instances if name in instance.after}
-    for connection in deployment.connections:
+    name = instance.name
+    users = set(followers)
+    for connection in connections:
         ends = (connection.source.name, connection.target.name)
-        if name in ends and ends[0] != ends[1] and all(end in order for end in ends):
+        if ends[0] != ends[1] and all(end in order for end in ends):
             users.add(ends[1] if ends[0] == name else ends[0])
     return tuple(sorted((u for u in users if order[u] > order[name]), key=order.__getitem__))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from robocomp_dsl.model.deployment import UNPLACED, Clock, Host, Readiness
+from robocomp_dsl.model.deployment import UNPLACED, Clock, Host, Instance, Readiness
 
 
 def describe_host(host: Host) -> str:
@@ -11,6 +11,15 @@ def describe_host(host: Host) -> str:
         return ""
     same = host.address in ("", host.name) or not host.name
     return host.name if same else f"{host.name} ({host.address})"
+
+
+def describe_placement(instance: Instance) -> str:
+    """How a host will be chosen: `on label gpu (robot, desk)`; empty if it has one."""
+    if instance.host is not UNPLACED:
+        return ""
+    placement = instance.placement
+    candidates = f" ({', '.join(placement.candidates)})" if placement.label else ""
+    return f"{placement}{candidates}"
 
 
 def describe_clock(clock: Clock) -> str:

@@ -43,7 +43,8 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
         missing = list(_check_executable(instance, process))
         if missing or not instance.is_program:
             findings += missing or check_configuration(instance, process)
-        findings += _check_scheduling(instance)
+        if instance.host.is_local:
+            findings += _check_scheduling(instance)
     if ports:
         findings += _check_ports(deployment)
         findings += check_port_addresses(deployment, KnownMiddlewares(), _bind_error)

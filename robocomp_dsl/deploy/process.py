@@ -17,7 +17,8 @@ class Process:
     have exited before it is stopped. `config`, `context`, `config_name` and `settings`
     (`key=value`) are those in `argv`; `config` None: the component's default, or what it finds by
     `context` and `config_name`. `port` 0: any free port. `host` and `group` are as written in the
-    description, empty for this machine and for no group; `devices` are text lines. `is_program`: it
+    description, empty for this machine and for no group; `placement` is a text such as `on label
+    gpu (robot, desk)` while the host is not chosen yet; `devices` are text lines. `is_program`: it
     is no component. `watchdog_s`: a callback that takes longer hangs; 0: no limit. `members` are
     the components of a group in one process, each as it would be alone; their `after` names other
     members.
@@ -41,6 +42,7 @@ class Process:
     config_name: str = ""
     settings: tuple[str, ...] = ()
     host: str = ""
+    placement: str = ""
     group: str = ""
     devices: tuple[str, ...] = ()
     is_program: bool = False

@@ -74,5 +74,6 @@ def port_middlewares(
             own = (named,) if named else declared or shared_middlewares(connection, deployment)
             names.update(dict.fromkeys(own))
     if IN_PROCESS in names and port.role in _FOUND_BY_OTHERS:
-        names.update(dict.fromkeys(default))  # for tools, and for what is connected later
+        # The others are for tools, and for what is connected later.
+        names = dict.fromkeys((IN_PROCESS, *names, *default))
     return tuple(names) or default

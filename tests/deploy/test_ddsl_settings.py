@@ -37,6 +37,8 @@ Deployment app
     {
         component arm { prefix "far/away"; set rate = 7; };
     };
+    group right : side on localhost;
+    group both { prefix far; set upper.arm.rate = 6; group upper : side { set hand.rate = 3; }; };
 };
 """
 
@@ -53,6 +55,11 @@ Deployment app
         ("empty", "rate", "1", "localhost { }", "localhost { set rate = 1; }"),
         ("wide", "rate", "1", "wide\n    {", "wide\n    {\n        set rate = 1;"),
         ("far/away/left-arm", "rate", "8", "set rate = 7", "set rate = 8"),
+        ("right-arm", "rate", "8", "localhost;", "localhost { set arm.rate = 8; };"),
+        ("right-hand-tip", "rate", "8", "localhost;", "localhost { set hand.tip.rate = 8; };"),
+        ("far/both-upper-arm", "rate", "8", "arm.rate = 6", "arm.rate = 8"),
+        ("far/both-upper-hand", "rate", "8", "hand.rate = 3", "hand.rate = 8"),
+        ("far/both-upper-arm", "x", "1", "rate = 3;", "rate = 3; set arm.x = 1;"),
     ],
 )
 def test_ddsl_settings_are_changed_in_place(

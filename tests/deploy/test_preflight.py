@@ -307,3 +307,38 @@ def test_preflight_reports_cores_that_the_machine_does_not_have(folder: Path) ->
     (line,) = [line for line in finding_lines(checked, folder) if "1022" in line]
     assert line.startswith("app.ddsl:6:15 RC575 `arm`: the CPU cores 1022-1023 cannot be used")
     assert not checked.ready
+
+
+CHOSEN = """
+import "arm/arm.cdsl";
+import "eye/eye.cdsl";
+Deployment app
+{
+    host robot { address "ROBOT"; labels gpu; };
+    host desk { address "DESK"; labels gpu; };
+    component arm on label gpu { set serial = "abc"; };
+    component eye { place by load on robot, desk; };
+    connect eye.Laser -> arm.Laser over OVER;
+};
+"""
+
+
+def test_check_places_components_on_this_machine(folder: Path) -> None:
+    app = CHOSEN.replace("ROBOT", "localhost").replace("DESK", "127.0.0.1")
+    checked = check_app(folder, app=app.replace("OVER", "local"))
+    assert finding_lines(checked, folder) == []
+    assert checked.plan is not None
+    assert {process.host for process in checked.plan.processes} == {"robot (localhost)"}
+    assert checked.ready
+    assert not checked.hosted
+
+
+def test_plan_leaves_other_hosts_to_the_start(folder: Path) -> None:
+    app = CHOSEN.replace("ROBOT", "10.0.0.2").replace("DESK", "10.0.0.3")
+    checked = check_app(folder, app=app.replace("OVER", "zenoh"))
+    assert finding_lines(checked, folder) == []
+    assert checked.plan is not None
+    assert checked.hosted
+    shown = "\n".join(as_text(checked.plan))
+    assert "1. arm (arm) on label gpu (robot, desk), placed when started" in shown
+    assert "1. eye (eye) by load on robot, desk, placed when started" in shown

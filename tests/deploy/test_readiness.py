@@ -14,8 +14,8 @@ import pytest
 from robocomp_dsl.deploy.plan import Process
 from robocomp_dsl.deploy.supervisor import process_watch
 from robocomp_dsl.deploy.supervisor.notify import NotifySocket, parse_message
-from robocomp_dsl.deploy.supervisor.resource_limits import LimitTracker, TreeUsage
 from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome
+from robocomp_dsl.host_tools.resource_limits import LimitTracker, TreeUsage
 from robocomp_dsl.model.deployment import Readiness, ResourceLimits, Restart
 from tests.deploy.scripted_processes import scripted_process
 from tests.deploy.supervisor_run import SupervisorRun, stop

@@ -20,7 +20,7 @@ from robocomp_dsl.cli.rcdeploy.main import program
 from robocomp_dsl.deploy import control, instances
 from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.supervisor import reaper
-from robocomp_dsl.deploy.supervisor.resource_limits import process_tree
+from robocomp_dsl.host_tools.resource_limits import process_tree
 from tests.deploy.rcdeploy_process import DEADLINE_S, RunningProcess, runtime_folder
 from tests.deploy.scripted_processes import STEADY
 

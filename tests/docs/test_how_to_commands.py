@@ -39,6 +39,8 @@ def test_shown_command_exists_with_its_options(line: str) -> None:
     # `rcdeploy app.ddsl plan` is `rcdeploy plan app.ddsl`; without a command it is `up`.
     if name == "rcdeploy" and words[0].endswith(".ddsl"):
         words = [words[1], words[0], *words[2:]] if len(words) > 1 else ["up", *words]
+    if words[0] == "hosts" and words[1].endswith(".ddsl"):
+        words.insert(1, "show")
     context = click.Context(command)
     while isinstance(command, click.Group) and words and not words[0].startswith("-"):
         found = command.get_command(context, words[0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -53,3 +54,16 @@ def module_hosts(
     hosts = Hosts(tmp_path_factory.mktemp("hosts"), test_network)
     yield hosts
     hosts.close()
+
+
+@pytest.fixture
+def operator(module_hosts: Hosts, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The home of the person who runs rcdeploy in this process, without any file of before."""
+    for path in (module_hosts.operator / ".config/robocomp", module_hosts.key.parent / "config"):
+        shutil.rmtree(path, ignore_errors=True)
+        path.unlink(missing_ok=True)
+    monkeypatch.setenv("HOME", str(module_hosts.operator))
+    monkeypatch.delenv("SSH_AUTH_SOCK", raising=False)
+    for name in ("CONFIG", "STATE", "DATA", "CACHE"):
+        monkeypatch.delenv(f"XDG_{name}_HOME", raising=False)
+    return module_hosts.operator

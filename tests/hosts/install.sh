@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the programs of simulated hosts: OpenSSH's server, systemd, ip and tc, dbus, faketime.
+# Installs the programs of simulated hosts: OpenSSH's server, systemd, ip and tc, dbus, a C compiler.
 # Debian packages need root or sudo; otherwise the script prints the missing packages, and the
 # tests are skipped (in CI, where the variable CI is set, the script fails).
 set -euo pipefail
@@ -11,7 +11,8 @@ debian=(
   "/lib/systemd/systemd:systemd"
   "/sbin/ip:iproute2"
   "/usr/bin/dbus-daemon:dbus"
-  "/usr/bin/faketime:faketime"
+  "/usr/bin/cc:gcc"
+  "/usr/include/stdlib.h:libc6-dev"
   "/usr/bin/unshare:util-linux"
   "/usr/bin/pgrep:procps"
 )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import os
+import subprocess
+import tempfile
 from collections.abc import Coroutine
 from pathlib import Path
 from typing import Any
@@ -21,8 +23,19 @@ from robocomp_dsl.deploy.hosts.errors import (
 from robocomp_dsl.model.deployment import Host
 from tests.hosts.rig.hosts import Hosts
 from tests.hosts.rig.machine import SimulatedHost
+from tests.support.waiting import wait_until
 
 TEST_TIMEOUT_S = 120.0
+NOISY = """\
+import sys
+input()
+sys.stderr.write("x" * 3_000_000 + "last words")
+sys.stderr.flush()
+print("y" * 3_000_000)
+print("end")
+sys.exit(5)
+"""
+"""Writes more than a pipe or a window of SSH holds, and errors first."""
 
 
 @pytest.fixture(scope="module")
@@ -31,12 +44,9 @@ def robot(module_hosts: Hosts) -> SimulatedHost:
 
 
 @pytest.fixture(autouse=True)
-def operator(module_hosts: Hosts, robot: SimulatedHost, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The home of the person who connects; it knows the keys of the hosts."""
-    monkeypatch.setenv("HOME", str(module_hosts.operator))
-    monkeypatch.delenv("XDG_CONFIG_HOME", raising=False)
+def known_robot(module_hosts: Hosts, robot: SimulatedHost, operator: Path) -> None:
+    """The person who connects knows the keys of the hosts."""
     module_hosts.trust()
-    return module_hosts.operator
 
 
 def run(task: Coroutine[Any, Any, Any]) -> Any:
@@ -96,6 +106,12 @@ def test_connection_streams_and_talks(robot: SimulatedHost) -> None:
             assert await process.readline() == line
         result = await process.close()
         assert (result.code, await process.readline()) == (0, b"")
+        noisy = await connection.start(["python3", "-c", NOISY])
+        await noisy.write(b"go\n")
+        assert len(await noisy.readline()) == 3_000_001
+        result = await noisy.close()
+        assert (result.code, result.stdout) == (5, b"end\n")
+        assert result.stderr.endswith(b"last words")
         await connection.close()
 
     run(session())
@@ -259,3 +275,48 @@ def test_connection_refuses_unknown_and_changed_host_keys(
         f"@revoked * {robot.host_key()}\n{robot.address} {robot.host_key()}\n", "utf-8"
     )
     assert "its host key is revoked in ~/.ssh/known_hosts:1" in str(failure(host_of(robot)))
+
+
+def test_connection_goes_through_a_jump_host(
+    module_hosts: Hosts, robot: SimulatedHost, operator: Path
+) -> None:
+    jump = module_hosts.start("jump")
+    module_hosts.trust()
+    config = operator / ".ssh/config"
+    config.write_text(f"Host robot\n  HostName {robot.address}\n  ProxyJump jump@{jump.address}\n")
+
+    async def session() -> str:
+        connection = await connect(Host("robot", "robot", "robot"))
+        text = (await connection.run(["sh", "-c", "echo $SSH_CONNECTION"])).text
+        await connection.close()
+        return text
+
+    try:
+        assert run(session()).split()[0] == jump.address
+    finally:
+        config.unlink()
+
+
+def test_connection_uses_the_ssh_agent(
+    robot: SimulatedHost, operator: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    key = operator / ".ssh/id_ed25519"
+    elsewhere = key.rename(tmp_path / "key")
+    with tempfile.TemporaryDirectory() as folder:  # paths of sockets must be short
+        socket = Path(folder, "agent")
+        with subprocess.Popen(["ssh-agent", "-D", "-a", str(socket)], stdout=-1) as agent:
+            try:
+                wait_until(socket.exists, "no agent")
+                monkeypatch.setenv("SSH_AUTH_SOCK", str(socket))
+                subprocess.run(["ssh-add", "-q", str(elsewhere)], check=True)
+
+                async def session() -> int:
+                    connection = await connect(host_of(robot))
+                    code = (await connection.run(["true"])).code
+                    await connection.close()
+                    return code
+
+                assert run(session()) == 0
+            finally:
+                agent.kill()
+                elsewhere.rename(key)

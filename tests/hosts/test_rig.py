@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 
 import pytest
 
+from tests.hosts.rig.cgroups import PREFIX, remove_stale_cgroups
 from tests.hosts.rig.hosts import Hosts
+from tests.hosts.rig.namespaces import TestNetwork
+from tests.hosts.rig.requirements import cgroup_roots
 from tests.support.waiting import wait_until
 
 SERVICE = """\
@@ -99,14 +105,100 @@ def test_simulated_host_link_is_cut_and_restored(module_hosts: Hosts) -> None:
     assert ssh(hosts, "base", "hostname").strip() == "base"
 
 
+def test_simulated_host_delays_packets(module_hosts: Hosts) -> None:
+    base = module_hosts.by_name["base"]
+    base.netem(delay_ms=100)
+    started = time.monotonic()
+    assert ssh(module_hosts, "base", "hostname").strip() == "base"
+    # A TCP connection, the greeting, the keys, the login, a session: each waits for a reply.
+    assert time.monotonic() - started > 1.0
+    base.end_netem()
+
+
+def test_simulated_host_loses_packets(module_hosts: Hosts) -> None:
+    base, robot = module_hosts.by_name["base"], module_hosts.by_name["robot"]
+    base.netem(loss=1.0)
+    echo = "import socket,sys; socket.create_connection((sys.argv[1], 22), 0.3)"
+    command = ["python3", "-c", echo, base.address]
+    assert robot.run(command, check=False).returncode == 1
+    base.netem(loss=0.1)
+    assert ssh(module_hosts, "base", "hostname").strip() == "base"
+    base.end_netem()
+    assert robot.run(["python3", "-c", echo, base.address]).returncode == 0
+
+
+def test_simulated_host_has_its_own_clock(hosts: Hosts) -> None:
+    late = hosts.start("late")
+    read = [sys.executable, "-c", "import time; print(time.time())"]
+    late.set_clock_offset(-3600)
+    assert float(late.run(read).stdout) == pytest.approx(time.time() - 3600, abs=30)
+    assert float(ssh(hosts, "late", "date", "+%s")) == pytest.approx(time.time() - 3600, abs=30)
+    ticker = "import time\nfor line in iter(input, 'end'): print(time.time(), flush=True)"
+    running = late.popen([sys.executable, "-c", ticker], stdin=subprocess.PIPE, stdout=-1)
+    for offset in (0, 7200):
+        late.set_clock_offset(offset)
+        running.stdin.write(b"\n")
+        running.stdin.flush()
+        shown = float(running.stdout.readline())
+        assert shown == pytest.approx(time.time() + offset, abs=30)
+    running.communicate(b"end\n")
+
+
+def test_simulated_host_has_limited_disk(hosts: Hosts) -> None:
+    small = hosts.start("small", disk_bytes=50_000_000)
+    small.run(["sh", "-c", "head -c 1000000 /dev/zero > kept"])
+    small.limit_disk(500_000)
+    full = small.run(["sh", "-c", "head -c 2000000 /dev/zero > more"], check=False)
+    assert "No space left" in full.stderr
+    small.reboot()
+    assert "kept" in small.run(["ls"]).stdout
+
+
 def test_simulated_host_leaves_nothing(hosts: Hosts) -> None:
     host = hosts.start("robot")
-    host.popen(["setsid", "sleep", "7654321"])
-    pid = wait_until(lambda: host.run(["pgrep", "-f", "sleep 7654321"], check=False).stdout)
+    duration = str(7_000_000 + os.getpid())
+    host.popen(["setsid", "sleep", duration])
+    pid = wait_until(lambda: host.run(["pgrep", "-f", f"sleep {duration}"], check=False).stdout)
     assert pid
     cgroups = [folder for folder in host._cgroups.folders if folder.exists()]
     assert cgroups
     host.power_off()
-    found = subprocess.run(["pgrep", "-f", "^sleep 7654321"], capture_output=True, check=False)
+    found = subprocess.run(["pgrep", "-f", f"^sleep {duration}"], capture_output=True, check=False)
     assert found.stdout == b""
     assert not any(folder.exists() for folder in cgroups)
+
+
+RUN = """\
+import sys
+from pathlib import Path
+from tests.hosts.rig.hosts import Hosts
+from tests.hosts.rig.namespaces import TestNetwork
+
+host = Hosts(Path(sys.argv[1]), TestNetwork()).start("robot")
+host.popen(["setsid", "sleep", sys.argv[2]])
+print(host.first_pid, flush=True)
+sys.stdin.read()
+"""
+
+
+def test_simulated_hosts_end_with_a_killed_test_process(
+    test_network: TestNetwork, tmp_path: Path
+) -> None:
+    """No fixture of the killed process runs; the kernel ends its hosts, the next run tidies up."""
+    duration = str(8_000_000 + os.getpid())
+    command = [sys.executable, "-c", RUN, str(tmp_path / "hosts"), duration]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+        assert process.stdout
+        first_pid = int(process.stdout.readline())
+        assert Path("/proc", str(first_pid)).exists()
+        process.send_signal(signal.SIGKILL)
+    wait_until(lambda: not Path("/proc", str(first_pid)).exists(), "the host goes on")
+    assert subprocess.run(["pgrep", "-f", f"sleep {duration}$"], check=False).returncode == 1
+    pattern = f"{PREFIX}{process.pid}-*"
+    wait_until(
+        lambda: (
+            remove_stale_cgroups()
+            or not any(folder for root in cgroup_roots() for folder in root.glob(pattern))
+        ),
+        "cgroups are left",
+    )

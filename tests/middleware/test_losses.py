@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -17,7 +18,7 @@ from robocomp_dsl.runtime.connection.sequence import (
     MAX_RATE,
     SequenceTracker,
 )
-from robocomp_dsl.runtime.presence import keys
+from robocomp_dsl.runtime.presence import keys, publications
 from robocomp_dsl.runtime.presence.publications import PublicationCounter
 from robocomp_dsl.runtime.presence.sequence_format import SEQUENCE_FORMAT
 from tests.middleware.network import DEADLINE, Network, Node
@@ -213,3 +214,35 @@ def test_sequence_tracker_settles_to_count_and_takes_late_message() -> None:
     assert tracker.lost == 3
     tracker.accept(3)
     assert tracker.lost == 2
+
+
+def test_losses_of_publisher_on_another_machine_ignore_its_clock(
+    network: Network, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its monotonic clock started at another boot: one that is ahead, one that is behind."""
+    for name, offset_s in (("ahead", 1e6), ("behind", -1e6)):
+        node = network.node(name)
+        now = time.monotonic_ns() + round(offset_s * 1e9)
+        with monkeypatch.context() as other_machine:
+            other_machine.setattr(publications, "clock_id", lambda name=name: f"boot of {name}")
+            other_machine.setattr(time, "monotonic_ns", lambda now=now: now)
+            counter = PublicationCounter(
+                raw_session(node), network.domain, Endpoint(NEWS, name, KEY)
+            )
+        numbers = counter.counter("announced")
+        for _ in range(5):  # before the subscription: no losses
+            next(numbers)
+        gate = Gate(network.node(f"s_{name}"), depth=100)
+        key = f"{keys.port_key(network.domain, 't', Endpoint(NEWS, name, KEY))}/announced"
+        publisher = raw_session(node).declare_publisher(key)
+        wait_until(lambda p=publisher: p.matching_status.matching, "there is a subscriber")
+        known = gate.node.ports.presence.publishers()
+        wait_until(lambda k=known, c=counter: (c.id, "announced") in k.counts_at_discovery)
+        encode = NEWS.operation("announced").encode_request
+        for number in range(10):
+            stamp = SEQUENCE_FORMAT.pack(counter.id, next(numbers))
+            if number not in (3, 4, 9):  # lost on the way, also the last
+                publisher.put(encode((name, number)), attachment=stamp)
+        wait_until(lambda g=gate, n=name: g.has((n, 8)), "the messages have arrived")
+        wait_until(lambda g=gate: g.drops == 3, lambda g=gate: f"{g.drops} losses")
+        counter.close()

@@ -5,7 +5,7 @@ In: `connect` lines and instances. Out: `Connection` values, and diagnostics.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from robocomp_dsl.check.cdsl.middlewares import find_middleware
 from robocomp_dsl.check.codes import deployment as codes
@@ -16,7 +16,6 @@ from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.diagnostics import Edit, Fix, Note, Report, nearest
 from robocomp_dsl.model.component import Port, Role
 from robocomp_dsl.model.deployment import Connection, External, Instance
-from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.syntax.ast import ddsl as ast
 
 SOURCES = (Role.REQUIRES, Role.PUBLISHES)
@@ -24,11 +23,27 @@ TARGETS = (Role.IMPLEMENTS, Role.SUBSCRIBES)
 _MATCHING_ROLE = {Role.REQUIRES: Role.IMPLEMENTS, Role.PUBLISHES: Role.SUBSCRIBES}
 
 
-class ExplicitConnections(ValueRecord):
+class ExplicitConnections:
     """The valid connections, and the names of instances with an invalid connection."""
 
-    connections: list[Connection]
-    faulty_instances: set[str]
+    def __init__(self, faulty: Iterable[str] = ()) -> None:
+        self.connections: list[Connection] = []
+        self.faulty_instances = set(faulty)
+        self._first: dict[tuple[int, ...], Connection] = {}
+
+    def add(self, connection: Connection) -> Connection | None:
+        """Add a connection, unless an earlier one, which is returned, has its required port.
+
+        Nor are two connections added between the same ports.
+        """
+        source = (id(connection.source), id(connection.source_port))
+        both = (*source, id(connection.target), id(connection.target_port))
+        is_required = connection.source_port.role is Role.REQUIRES
+        earlier = self._first.setdefault(source if is_required else both, connection)
+        if earlier is not connection:
+            return earlier
+        self.connections.append(connection)
+        return None
 
 
 def explicit_connections(
@@ -39,7 +54,7 @@ def explicit_connections(
     report: Report,
 ) -> ExplicitConnections:
     """The valid connections between `instances`; `faulty`: see `ExplicitConnections`."""
-    explicit = ExplicitConnections([], set(faulty))
+    explicit = ExplicitConnections(faulty)
     for tree in trees:
         add_connection(tree, instances, explicit, context, report)
     return explicit
@@ -54,10 +69,12 @@ def add_connection(
 ) -> Connection | None:
     """Resolve a connection and add it to `explicit`; None if it is invalid."""
     connection = _connection(tree, instances, context, report)
-    if connection is None or _is_duplicate(connection, explicit.connections, report):
+    earlier = explicit.add(connection) if connection else None
+    if connection and earlier:
+        _report_duplicate(connection, earlier, report)
+    if connection is None or earlier:
         explicit.faulty_instances.update((tree.source.instance.text, tree.target.instance.text))
         return None
-    explicit.connections.append(connection)
     return connection
 
 
@@ -197,21 +214,10 @@ def _matches(tree: ast.Connection, source: Port, target: Port, report: Report) -
     return True
 
 
-def _is_duplicate(connection: Connection, earlier: Sequence[Connection], report: Report) -> bool:
-    """Whether the connection, or another one of the same required port, was written before."""
-    for previous in earlier:
-        same_source = (
-            previous.source is connection.source and previous.source_port is connection.source_port
-        )
-        same_target = (
-            previous.target is connection.target and previous.target_port is connection.target_port
-        )
-        if same_source and (same_target or connection.source_port.role is Role.REQUIRES):
-            report.add(
-                codes.CONNECTED_TWICE,
-                connection.span,
-                f"`{connection.source.name}.{connection.source_port.name}` is already connected",
-                notes=[Note(previous.span, "connected here")],
-            )
-            return True
-    return False
+def _report_duplicate(connection: Connection, earlier: Connection, report: Report) -> None:
+    report.add(
+        codes.CONNECTED_TWICE,
+        connection.span,
+        f"`{connection.source.name}.{connection.source_port.name}` is already connected",
+        notes=[Note(earlier.span, "connected here")],
+    )

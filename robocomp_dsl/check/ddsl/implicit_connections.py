@@ -9,7 +9,7 @@ the namespace are not visible.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from robocomp_dsl.check.codes import deployment as codes
@@ -44,26 +44,26 @@ def implicit_connections(
     connected |= {
         (id(connection.target), id(connection.target_port)) for connection in written.connections
     }
-    servers = list(_ends(instances, Role.IMPLEMENTS))
+    servers = _EndIndex(_ends(instances, Role.IMPLEMENTS), exports)
     for instance, port in _ends(instances, Role.REQUIRES):
         if (id(instance), id(port)) not in connected:
-            others = [end for end in _serving(port, servers) if end[0] is not instance]
-            found = nearest(instance.prefix, _visible_ends(instance, others, exports), _prefix)
+            found = nearest(instance.prefix, servers.visible(instance, port), _prefix)
             if len(found) == 1:
                 yield Connection(instance, port, *found[0], instance.span, implied=True)
             elif instance.name not in written.faulty_instances and not port.optional:
                 first = _format_end(instance, found[0], exports) if found else ""
+                others = servers.others(instance, port)
                 candidates = _Candidates(found, others, first)
                 _report_requirement(instance, port, candidates, imported, report, whole=complete)
-    publishers = list(_ends(instances, Role.PUBLISHES))
+    publishers = _EndIndex(_ends(instances, Role.PUBLISHES), exports, includes_itself=True)
     for instance, port in _ends(instances, Role.SUBSCRIBES):
         if (id(instance), id(port)) not in connected:
-            others = _serving(port, publishers)
-            publishers_seen = _visible_ends(instance, others, exports)
+            publishers_seen = publishers.visible(instance, port)
             for publisher, topic in publishers_seen:
                 yield Connection(publisher, topic, instance, port, instance.span, implied=True)
             is_missing = not publishers_seen and complete and not port.optional
             if is_missing and not is_configured(instance, port):
+                others = publishers.others(instance, port)
                 _report_no_publisher(instance, port, _other_branches(instance, others), report)
 
 
@@ -103,26 +103,49 @@ def _prefix(end: End) -> str:
     return end[0].prefix
 
 
-def _visible_ends(instance: Instance, ends: Sequence[End], exports: Exports) -> list[End]:
-    """The ends visible from the innermost group around `instance` that sees any."""
-    ends = on_branch(instance.prefix, ends, _prefix)
-    scope = instance.group
-    while True:
-        seen = exports.get(scope, {})
-        found = [e for e in ends if e[0].group == scope or (e[0].name, e[1].name) in seen]
-        if found or not scope:
-            return found
-        scope = scope.rpartition(NAME_SEPARATOR)[0]
+class _EndIndex:
+    """Ports by interface and by the scope in which they are visible, in their order."""
+
+    def __init__(
+        self, ends: Iterable[End], exports: Exports, *, includes_itself: bool = False
+    ) -> None:
+        self._includes_itself = includes_itself
+        self._by_interface: dict[str, list[End]] = {}
+        self._visible: dict[tuple[str, str], list[End]] = {}
+        scopes: dict[tuple[str, str], list[str]] = {}
+        for scope, exported in exports.items():
+            for name in exported:
+                scopes.setdefault(name, []).append(scope)
+        for end in ends:
+            instance, port = end
+            interface = port.interface.qualified
+            self._by_interface.setdefault(interface, []).append(end)
+            exporting = scopes.get((instance.name, port.name), ())
+            for scope in dict.fromkeys((instance.group, *exporting)):
+                self._visible.setdefault((interface, scope), []).append(end)
+
+    def others(self, instance: Instance, port: Port) -> list[End]:
+        """All ports with the interface of `port`."""
+        return self._others(instance, self._by_interface.get(port.interface.qualified, ()))
+
+    def visible(self, instance: Instance, port: Port) -> list[End]:
+        """The ports visible from the innermost group around `instance` that sees any."""
+        scope = instance.group
+        while True:
+            ends = self._visible.get((port.interface.qualified, scope), ())
+            found = on_branch(instance.prefix, self._others(instance, ends), _prefix)
+            if found or not scope:
+                return found
+            scope = scope.rpartition(NAME_SEPARATOR)[0]
+
+    def _others(self, instance: Instance, ends: Sequence[End]) -> list[End]:
+        return [end for end in ends if self._includes_itself or end[0] is not instance]
 
 
 def _ends(instances: Sequence[Instance], role: Role) -> Iterator[End]:
     for end in instances:
         for port in end.component.with_role(role):
             yield end, port
-
-
-def _serving(port: Port, ends: Sequence[End]) -> list[End]:
-    return [end for end in ends if same_interface(end[1], port)]
 
 
 def _format_end(instance: Instance, end: End, exports: Exports) -> str:

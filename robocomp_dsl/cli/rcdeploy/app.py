@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from robocomp_dsl.cli import options
+from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.deploy.plan import Plan, plan
 from robocomp_dsl.diagnostics import Diagnostic, Report
 
@@ -70,6 +72,7 @@ def check(
             deployment = select_group(deployment, group)
         except NoSuchGroup as error:
             raise click.BadParameter(str(error), param_hint="--group") from None
+    deployment = _placed_locally(deployment, report)
     running = name or (f"{deployment.name}-{group}" if group else deployment.name)
     hosted = any(not instance.host.is_local for instance in deployment.instances)
     instance = None if hosted else _running_instance(running, path)
@@ -86,6 +89,31 @@ def check(
         report.extend(find_outdated(deployment, workspace.middlewares.names))
     ready = not report.has_errors
     return CheckedDeployment(report.sorted(), plan_, ready, deployment, hosted)
+
+
+def _placed_locally(deployment: Deployment, report: Report) -> Deployment:
+    """The deployment with a host for each component, if only this machine can be chosen."""
+    from robocomp_dsl.model.deployment import UNPLACED  # noqa: PLC0415 - not for --help
+
+    if all(instance.host is not UNPLACED for instance in deployment.instances):
+        return deployment
+    from robocomp_dsl.deploy.placement.place import place, placeable_locally  # noqa: PLC0415
+
+    if not placeable_locally(deployment):
+        return deployment
+    result = place(deployment, {}, {})
+    report.extend(result.findings)
+    return result.deployment
+
+
+def require_hosts(checked: CheckedDeployment, app: Path) -> None:
+    """Print the findings of the text; raise `CliError` unless it can run on several hosts."""
+    options.print_findings(checked.findings, "full", sys.stderr)
+    if checked.plan is None or not checked.ready:
+        raise CliError(EXIT_FINDINGS)
+    if not checked.hosted:
+        text = f"{app}: all components are on this machine; `rcdeploy up` runs them"
+        raise CliError(EXIT_FINDINGS, text)
 
 
 def _running_instance(name: str, path: Path) -> RunningDeployment | None:

@@ -7,13 +7,10 @@ runs.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import running
 from robocomp_dsl.deploy.engine import Engine, EngineError
-
-report = partial(print, flush=True)
 
 
 def split_names(words: Sequence[str]) -> tuple[Engine, list[str]]:
@@ -30,7 +27,7 @@ def split_names(words: Sequence[str]) -> tuple[Engine, list[str]]:
 def request(engine: Engine, verb: str, names: Sequence[str]) -> None:
     """Send the request and print its replies. Raises `CliError` unless it succeeds."""
     try:
-        code = engine.change(verb, names, report)
+        code = engine.change(verb, names, running.say)
     except EngineError as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None
     if code:

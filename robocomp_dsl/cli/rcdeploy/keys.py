@@ -1,4 +1,4 @@
-"""`rcdeploy keys`: keys and certificates of a deployment over hosts. In: a DDSL file. Out: files."""
+"""`rcdeploy keys`: certificates of a deployment over hosts. In: a DDSL file. Out: files."""
 
 from __future__ import annotations
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import shlex
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -21,6 +22,9 @@ from robocomp_dsl.deploy.plan_text import format_readiness
 from robocomp_dsl.model.deployment import ExternalConnection
 from robocomp_dsl.model.limits_text import format_limits
 
+if TYPE_CHECKING:
+    from robocomp_dsl.deploy.placement.placement_choice import PlacementChoice
+
 
 @click.command()
 @rcdeploy_app.app
@@ -30,6 +34,13 @@ from robocomp_dsl.model.limits_text import format_limits
     "--name", metavar="NAME", help="Name of the running deployment; default: its name in the file."
 )
 @click.option("--domain", metavar="NAME", help="Communication domain; default: a new domain.")
+@click.option("--access", is_flag=True, help="Show who may use which ports over hosts.")
+@click.option(
+    "--hosts",
+    "ask_hosts",
+    is_flag=True,
+    help="Ask the hosts for their load, and choose those of components without a host.",
+)
 @click.option("--format", "output_format", type=click.Choice(["text", "json"]), default="text")
 def command(
     app: Path,
@@ -37,27 +48,68 @@ def command(
     group: str | None,
     name: str | None,
     domain: str | None,
+    access: bool,
+    ask_hosts: bool,
     output_format: str,
 ) -> None:
     """Show the processes that `up` would start, their order and connections; start nothing.
 
     The command lines can be pasted into a shell. If the deployment is running, they join it.
+    Without --hosts nothing is asked: hosts of `on label` and `place by load` are chosen by `up`.
     Exit code 1: it cannot be started now; standard error has the reasons.
     """
     checked = rcdeploy_app.check(app, folders, name, domain, group)
     options.print_findings(checked.findings, "full", sys.stderr)
     if checked.plan is None:
         raise CliError(EXIT_FINDINGS)
-    if output_format == "json":
-        print(json.dumps(as_data(checked.plan), indent=1))
+    plan = checked.plan
+    choices: tuple[PlacementChoice, ...] = ()
+    if ask_hosts and checked.ready:
+        from robocomp_dsl.cli.rcdeploy.plan_hosts import placed_plan  # noqa: PLC0415 - loads asyncssh
+
+        if placed := placed_plan(checked):
+            plan, choices = placed.plan, tuple(placed.choices)
+    if access:
+        _print_access(checked, output_format)
+    elif output_format == "json":
+        print(json.dumps(as_data(plan, choices), indent=1))
     else:
-        print("\n".join(map(strip_control_chars, as_text(checked.plan))))
+        lines = [*as_text(plan), *_chosen(choices)]
+        print("\n".join(map(strip_control_chars, lines)))
     if not checked.ready:
         raise CliError(EXIT_FINDINGS)
 
 
-def as_data(plan: Plan) -> dict[str, Any]:
-    """The plan as JSON data."""
+def _print_access(checked: rcdeploy_app.CheckedDeployment, output_format: str) -> None:
+    from robocomp_dsl.deploy.network.access_rules import access_rules  # noqa: PLC0415
+    from robocomp_dsl.deploy.network.access_text import access_data, access_text  # noqa: PLC0415
+    from robocomp_dsl.deploy.network.identities import needs_network  # noqa: PLC0415
+
+    assert checked.deployment is not None  # noqa: S101 - there is a plan
+    assert checked.plan is not None  # noqa: S101
+    if not needs_network(checked.deployment):
+        print("all components are on this machine: its user may use everything")
+        return
+    rules = access_rules(checked.deployment, checked.plan.domain)
+    if output_format == "json":
+        print(json.dumps(access_data(rules), indent=1))
+    else:
+        print("\n".join(map(strip_control_chars, access_text(rules))))
+
+
+def _chosen(choices: Sequence[PlacementChoice]) -> Iterator[str]:
+    """How the hosts were chosen, with the numbers."""
+    if not choices:
+        return
+    from robocomp_dsl.deploy.placement.placement_text import placement_lines  # noqa: PLC0415
+
+    yield ""
+    yield "hosts, as chosen now:"
+    yield from (f"   {line}" for line in placement_lines(choices))
+
+
+def as_data(plan: Plan, choices: Sequence[PlacementChoice] = ()) -> dict[str, Any]:
+    """The plan as JSON data; `choices` of hosts with their numbers."""
     return {
         "name": plan.name,
         "file": str(plan.path.resolve()),
@@ -65,8 +117,10 @@ def as_data(plan: Plan) -> dict[str, Any]:
         "middlewares": list(plan.middlewares),
         "clock": plan.clock,
         "processes": [_process(process) for process in plan.processes],
+        "groups": [group.as_dict() for group in plan.groups],
         "externals": [program.as_dict() for program in plan.externals],
         "external_connections": [_connection(each) for each in plan.external_connections],
+        "placement": [dataclasses.asdict(choice) for choice in choices],
         "stop": plan.shutdown_batches(),
     }
 
@@ -85,6 +139,7 @@ def _process(process: Process) -> dict[str, Any]:
         "name": process.name,
         "component": process.component,
         "host": process.host,
+        "placement": process.placement,
         "group": process.group,
         "argv": list(process.argv),
         "cwd": str(process.cwd.resolve()),
@@ -116,10 +171,13 @@ def as_text(plan: Plan) -> Iterator[str]:
     yield f"{plan.name}: {count} component{'s' * (count != 1)}{over}"
     yield f"domain {plan.domain}"
     yield f"clock {plan.clock}"
+    by_name = {process.name: process for process in plan.processes}
     for wave, names in enumerate(batches({p.name: set(p.after) for p in plan.processes}), start=1):
-        for process in (p for p in plan.processes if p.name in names):
+        for name in names:
             yield ""
-            yield from _described(process, wave)
+            yield from _described(by_name[name], wave)
+    for group in plan.groups:
+        yield from ("", *group.format())
     for program in plan.externals:
         port, connected = program.format()
         yield from ("", port, f"   {connected}")
@@ -140,6 +198,8 @@ def _described(process: Process, wave: int) -> Iterator[str]:
     if restart != "never":
         restart += f" at most {process.restart.max} times in {process.restart.window_s:g} s"
     place = f" on {process.host}" if process.host else ""
+    if process.placement:
+        place = f" {process.placement}, placed when started"
     group = f" in group {process.group}" if process.group else ""
     yield f"{wave}. {process.name} ({process.component}){group}{place}{after}"
     ready = " ".join(filter(None, ["ready", format_readiness(process.readiness)]))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
 
 import click
 
@@ -11,6 +13,7 @@ from robocomp_dsl.deploy import deployments
 from robocomp_dsl.deploy.engine import Engine, EngineError
 from robocomp_dsl.diagnostics import did_you_mean
 
+say = partial(print, flush=True)
 which = click.argument("which", metavar="[APP.ddsl|NAME]", required=False)
 
 
@@ -18,6 +21,8 @@ def resolve_deployment(which: str | None) -> Engine:
     """The running deployment with that name or file, or the only one. Raises `CliError`."""
     known = _known()
     matches = [e for e in known if which is None or deployments.is_meant(e, which)]
+    if not matches and which is not None and (hosted := _hosted(which)):
+        return hosted
     if len(matches) != 1:
         raise CliError(EXIT_FINDINGS, _selection_problem(which, matches, known))
     return matches[0]
@@ -32,16 +37,36 @@ def all_deployments() -> list[Engine]:
 
 
 def is_deployment(word: str) -> bool:
-    """Whether `word` names a running deployment, or a DDSL file. Raises `CliError`."""
+    """Whether `word` names a deployment that runs or is on hosts, or a DDSL file.
+
+    Raises `CliError`.
+    """
     if word.lower().endswith(".ddsl"):
         return True
-    return any(deployments.is_meant(engine, word) for engine in _known())
+    if any(deployments.is_meant(engine, word) for engine in _known()):
+        return True
+    return deployments.find_hosted(word) is not None
 
 
 def is_running(word: str) -> bool:
     """Whether `word` is the name of a running deployment, and not also of its components."""
     found = [engine for engine in _known() if engine.name == word]
     return bool(found) and word not in components(found[0])
+
+
+def _hosted(which: str) -> Engine | None:
+    """A deployment over hosts that was stopped, or that another operator has started."""
+    if stopped := deployments.find_hosted(which):
+        return stopped
+    path = Path(which)
+    if path.suffix != ".ddsl" or not path.is_file():
+        return None
+    from robocomp_dsl.cli.rcdeploy import app  # noqa: PLC0415 - loads the parser
+
+    checked = app.check(path, ())
+    if checked.plan is None or checked.deployment is None or not checked.hosted:
+        return None
+    return deployments.described_engine(checked.deployment, checked.plan)
 
 
 def _known() -> list[Engine]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
-from robocomp_dsl.cli.rcdeploy import components
+from robocomp_dsl.cli.rcdeploy import components, running
 from robocomp_dsl.deploy.engine import EngineError
 
 
@@ -21,7 +21,7 @@ def command(words: tuple[str, ...]) -> None:
         components.request(engine, "stop", names)
         return
     try:
-        result = engine.stop(components.report)
+        result = engine.stop(running.say)
     except EngineError as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None
     print(f"{engine.name}: {result.reason}")

@@ -124,8 +124,11 @@ def command(
     if checked.hosted:
         from robocomp_dsl.cli.rcdeploy import up_hosts  # noqa: PLC0415 - loads asyncssh
 
+        up_hosts.reject_options(how)
         up_hosts.command(checked, follow=follow)
         return
+    if follow:
+        raise click.UsageError("--follow is for several hosts; on one machine `up` shows the logs")
     if reason := unsupported_reason():
         raise CliError(EXIT_FINDINGS, reason)
     try:

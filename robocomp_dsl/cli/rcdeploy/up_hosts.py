@@ -4,25 +4,47 @@ from __future__ import annotations
 
 import asyncio
 import sys
-from collections.abc import Callable, Coroutine
-from functools import partial
+from collections.abc import Callable, Coroutine, Mapping
 from typing import Any, TypeVar
+
+import click
 
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy.app import CheckedDeployment
+from robocomp_dsl.cli.rcdeploy.running import say
+from robocomp_dsl.deploy import instances
 from robocomp_dsl.deploy.hosts.deployer import Deployer, Rejected
 from robocomp_dsl.deploy.hosts.errors import HostError
 
-say = partial(print, flush=True)
 Result = TypeVar("Result")
+
+
+def _reject_supervised(name: str) -> None:
+    """Raise `CliError` if a deployment of that name runs on this machine with a supervisor."""
+    try:
+        found = [running for running in instances.running() if running.name == name]
+    except instances.Unavailable as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
+    if found:
+        text = (
+            f"`{name}` already runs on this machine (pid {found[0].pid}, {found[0].path}); stop it,"
+            " or use another --name"
+        )
+        raise CliError(EXIT_FINDINGS, text)
+
+
+def _ignore(text: str) -> None:
+    """Print nothing."""
 
 
 def command(checked: CheckedDeployment, *, follow: bool) -> None:
     """Deploy, wait until all components are ready, and print how it went."""
-    result = run(checked, Deployer.up)
     assert checked.plan  # noqa: S101 - it was checked
-    name, version = checked.plan.name, result.version
+    name = checked.plan.name
+    _reject_supervised(name)
+    result = run(checked, Deployer.up)
+    version = result.version
     if not result.changes:
         say(f"{name}: nothing changes, version {version} runs as described")
     elif result.failed:
@@ -38,13 +60,24 @@ def command(checked: CheckedDeployment, *, follow: bool) -> None:
         raise CliError(EXIT_FINDINGS)
 
 
+def reject_options(how: Mapping[str, Any]) -> None:
+    """Raise `click.UsageError` for an option of the supervisor that systemd does not have."""
+    for name in ("duration", "keep_going", "live"):
+        if how.get(name):
+            option = {"live": "--table"}.get(name, f"--{name.replace('_', '-')}")
+            raise click.UsageError(f"{option} is for deployments on one machine")
+
+
 def run(
-    checked: CheckedDeployment, work: Callable[[Deployer], Coroutine[Any, Any, Result]]
+    checked: CheckedDeployment,
+    work: Callable[[Deployer], Coroutine[Any, Any, Result]],
+    *,
+    quiet: bool = False,
 ) -> Result:
     """Run `work` of a deployer; its findings are printed. Raises `CliError`."""
     assert checked.plan  # noqa: S101 - it was checked
     assert checked.deployment  # noqa: S101
-    deployer = Deployer(checked.deployment, checked.plan, say)
+    deployer = Deployer(checked.deployment, checked.plan, _ignore if quiet else say)
     try:
         result = asyncio.run(work(deployer))
     except Rejected as rejected:

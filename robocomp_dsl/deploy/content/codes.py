@@ -42,18 +42,6 @@ Install them here first; the versions found here are the versions on the host:
 """,
 )
 
-HOST_PYTHON = Code(
-    "RC847",
-    Severity.ERROR,
-    "Python of a host too old",
-    """\
-Components run on Python 3.11 or newer. The finding lists the versions found on the host. Hosts need
-no internet access, so rcdeploy does not download one; install it there once, for example:
-
-    sudo apt install python3.11
-""",
-)
-
 SPACE = Code(
     "RC848",
     Severity.ERROR,

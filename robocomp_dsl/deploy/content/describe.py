@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from robocomp_dsl.deploy.content import codes
@@ -19,7 +20,7 @@ from robocomp_dsl.deploy.content.folder_scan import (
     scan_folder,
 )
 from robocomp_dsl.deploy.content.hash_cache import HashCache
-from robocomp_dsl.deploy.content.named_files import NamedFile, named_files, place_of
+from robocomp_dsl.deploy.content.named_files import NamedFile, NamedFileFinder, NamedFiles, place_of
 from robocomp_dsl.deploy.content.tree import ContentTree, TreeFile, make_tree
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.deploy.preflight import search_config, short_path
@@ -35,22 +36,38 @@ _LISTED_PROBLEMS = 5
 Status = tuple[str, os.stat_result]
 
 
+@dataclass(frozen=True, slots=True)
+class _Member:
+    """One component of a process, what it names, and the configuration found in its context."""
+
+    instance: Instance
+    process: Process
+    folder: Path
+    named: NamedFiles
+    searched: Path | None
+
+    def anchors(self) -> Iterator[Path]:
+        """Folders that are in the tree."""
+        yield self.folder.parent
+        yield from self.named.folders
+        for file in self.named.files:
+            yield file.path.parent
+
+    def paths(self) -> Iterator[tuple[str, Path]]:
+        """The paths in its command line, and what they lead to."""
+        yield str(self.folder), self.folder
+        yield from ((file.text, file.path) for file in self.named.files if file.text)
+
+
 def describe_trees(
     deployment: Deployment,
     plan: Plan,
     report: Report,
-    files: Mapping[str, Sequence[Path]] | None = None,
     hashes: HashCache | None = None,
 ) -> dict[str, ContentTree]:
-    """The tree of each process, by its full name.
-
-    `files` are further files and folders by full name, relative paths to the component's folder.
-    """
-    describer = TreeDescriber(deployment, hashes or HashCache())
-    trees = {}
-    for instance, process in zip(deployment.instances, plan.processes, strict=True):
-        extra = (files or {}).get(process.name, ())
-        trees[process.name] = describer.describe(instance, process, extra, report)
+    """The tree of each process, by its full name; a group in one process has one tree."""
+    describer = TreeDescriber(deployment, plan, hashes or HashCache())
+    trees = {process.name: describer.describe(process, report) for process in plan.processes}
     describer.hashes.save()
     return trees
 
@@ -58,52 +75,63 @@ def describe_trees(
 class TreeDescriber:
     """Describes trees; a folder that several instances use is read once."""
 
-    def __init__(self, deployment: Deployment, hashes: HashCache) -> None:
+    def __init__(self, deployment: Deployment, plan: Plan, hashes: HashCache) -> None:
         self.hashes = hashes
-        self._deployment = deployment
+        self._finder = NamedFileFinder(deployment.path, deployment.connections)
+        names = (process.name for process in plan.components)
+        self._instances = dict(zip(names, deployment.instances, strict=True))
         self._scans: dict[str, FolderScan] = {}
+        self._trees: dict[object, ContentTree] = {}
         self._hashed: dict[str, str | ScanProblem] = {}
 
-    def describe(
-        self, instance: Instance, process: Process, extra: Sequence[Path], report: Report
-    ) -> ContentTree:
+    def describe(self, process: Process, report: Report) -> ContentTree:
         """The tree of one process; files that cannot be copied are findings."""
-        folder = process.cwd.resolve()
-        searched = None if process.config else _search_config(instance, process)
-        named = named_files(
-            instance,
-            process,
-            self._deployment.connections,
-            self._deployment.path,
-            extra,
-            process.config or searched,
-        )
-        anchors = [folder.parent, *named.folders, *(file.path.parent for file in named.files)]
+        members = [self._member(member) for member in process.members or (process,)]
+        key = tuple((member.folder, member.named, member.searched) for member in members)
+        if key in self._trees and not any(member.searched for member in members):
+            return self._trees[key]
+        before = len(report)
+        tree = self._tree(self._finder.resolve(process.cwd), members, report)
+        _report_size(members[0].instance, tree, report)
+        if len(report) == before:
+            self._trees[key] = tree
+        return tree
+
+    def _tree(self, folder: Path, members: Sequence[_Member], report: Report) -> ContentTree:
+        anchors = [folder] if len(members) > 1 else [folder.parent]
+        anchors += [path for member in members for path in member.anchors()]
         origin = os.path.commonpath(anchors)
-        problems: list[ScanProblem] = []
-        found = list(self._component_files(instance, str(folder), problems))
-        for file in named.files:
-            found += self._named(file, problems)
-        entries = list(self._hash_all(found, origin, problems))
-        tree = make_tree(
+        entries: list[TreeFile] = []
+        for member in members:
+            problems: list[ScanProblem] = []
+            found = list(self._component_files(member, problems))
+            for file in member.named.files:
+                found += self._named(file, problems)
+            entries += self._hash_all(found, origin, problems)
+            _report_problems(member.instance, problems, report)
+        return make_tree(
             Path(origin),
             os.path.relpath(folder, origin),
             entries,
-            [os.path.relpath(path, origin) for path in named.folders],
-            _names(named.files, origin, folder),
-            os.path.relpath(place_of(searched), origin) if searched else "",
+            [os.path.relpath(path, origin) for member in members for path in member.named.folders],
+            _names([path for member in members for path in member.paths()], origin),
+            [
+                (member.process.name, os.path.relpath(place_of(member.searched), origin))
+                for member in members
+                if member.searched
+            ],
         )
-        _report_problems(instance, problems, report)
-        _report_size(instance, tree, report)
-        return tree
 
-    def _component_files(
-        self, instance: Instance, folder: str, problems: list[ScanProblem]
-    ) -> Sequence[Status]:
+    def _member(self, process: Process) -> _Member:
+        instance = self._instances[process.name]
+        searched = None if process.config else _search_config(instance, process)
+        folder = self._finder.resolve(process.cwd)
+        named = self._finder.find(instance, folder, process.config or searched)
+        return _Member(instance, process, folder, named, searched)
+
+    def _component_files(self, member: _Member, problems: list[ScanProblem]) -> Sequence[Status]:
         """The component's folder; a program is only the files that it names."""
-        if instance.is_program:
-            return ()
-        return self._scan(folder, problems)
+        return () if member.instance.is_program else self._scan(str(member.folder), problems)
 
     def _scan(self, folder: str, problems: list[ScanProblem]) -> Sequence[Status]:
         scan = self._scans.get(folder)
@@ -161,12 +189,12 @@ def _search_config(instance: Instance, process: Process) -> Path | None:
         return None
 
 
-def _names(files: Sequence[NamedFile], origin: str, folder: Path) -> Iterator[tuple[str, str]]:
+def _names(paths: Sequence[tuple[str, Path]], origin: str) -> Iterator[tuple[str, str]]:
     """The paths of the command line and their places, longest first."""
-    paths = {file.text: file.path for file in files if file.text} | {str(folder): folder}
-    for text in sorted(paths, key=len, reverse=True):
+    distinct = dict(paths)
+    for text in sorted(distinct, key=len, reverse=True):
         if Path(text).is_absolute():
-            yield text, os.path.relpath(paths[text], origin)
+            yield text, os.path.relpath(distinct[text], origin)
 
 
 def _report_problems(instance: Instance, problems: list[ScanProblem], report: Report) -> None:

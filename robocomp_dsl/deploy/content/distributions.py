@@ -59,7 +59,7 @@ def close_requirements(
     """The requirements and all that they need, sorted; `markers` are the variables of the host."""
     found: dict[str, LockedDistribution] = {}
     problems: dict[str, RequirementProblem] = {}
-    pending = [(requirement, "") for requirement in roots]
+    pending = [(requirement, "") for requirement in roots if _applies(requirement, (), markers)]
     seen = set()
     while pending:
         requirement, user = pending.pop()
@@ -169,8 +169,11 @@ def _needed(text: str, extras: Iterable[str], markers: Mapping[str, str]) -> Req
         requirement = Requirement(text)
     except InvalidRequirement:
         return None
+    return requirement if _applies(requirement, extras, markers) else None
+
+
+def _applies(requirement: Requirement, extras: Iterable[str], markers: Mapping[str, str]) -> bool:
     marker = requirement.marker
     if marker is None:
-        return requirement
-    environments = [{**markers, "extra": extra} for extra in ("", *extras)]
-    return requirement if any(marker.evaluate(e) for e in environments) else None
+        return True
+    return any(marker.evaluate({**markers, "extra": extra}) for extra in ("", *extras))

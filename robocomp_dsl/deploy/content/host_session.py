@@ -7,6 +7,7 @@ sent as source text.
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
 from collections.abc import Mapping
 from functools import cache
@@ -14,11 +15,12 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from robocomp_dsl.deploy.hosts.connection import HostConnection, HostProcess
+from robocomp_dsl.deploy.hosts.connection import CommandResult, HostConnection, HostProcess
 from robocomp_dsl.deploy.hosts.errors import HostError, HostTimeout, HostWriteError
 
 MODULES = ("files", "environments", "garbage", "dispatch")
 REQUEST_TIMEOUT_S = 600.0
+_CLOSE_TIMEOUT_S = 10.0
 _BOOTSTRAP = (
     "import sys;i=sys.stdin.buffer;"
     "n={'__name__':'robocomp_host'};exec(compile(i.read(int(i.readline())),'rcdeploy','exec'),n);"
@@ -50,7 +52,11 @@ class HostSession:
     async def __aenter__(self) -> Self:
         source = source_text()
         self._process = await self._connection.start([self.python, "-c", _BOOTSTRAP])
-        await self._process.write(f"{len(source)}\n".encode() + source)
+        try:
+            await self._send(f"{len(source)}\n".encode() + source)
+        except BaseException:
+            await self._close()
+            raise
         return self
 
     async def __aexit__(
@@ -59,8 +65,7 @@ class HostSession:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        if self._process is not None:
-            await self._process.close()
+        await self._close()
 
     async def call(
         self, function: str, arguments: Mapping[str, Any] | None = None, payload: bytes = b""
@@ -91,18 +96,39 @@ class HostSession:
         return self._connection.host.name or "localhost"
 
     async def _exchange(self, request: bytes) -> dict[str, Any]:
-        assert self._process is not None  # noqa: S101 - it is entered
-        await self._process.write(request)
+        await self._send(request)
+        assert self._process is not None  # noqa: S101 - it was sent to
         count = await self._process.readline()
         if not count:
-            process, self._process = self._process, None
-            result = await process.close()
-            lines = result.stderr.decode("utf-8", "replace").strip().splitlines()
-            reason = lines[-1] if lines else f"exit code {result.code}"
-            raise ContentError(f"{self._host}: {self.python} ended: {reason}")
+            raise self._ended(await self._close())
         pieces = [await self._process.readline() for _ in range(int(count))]
         data: dict[str, Any] = json.loads(b"".join(piece.rstrip(b"\n") for piece in pieces))
         return data
+
+    async def _send(self, data: bytes) -> None:
+        assert self._process is not None  # noqa: S101 - it is entered
+        try:
+            await self._process.write(data)
+        except HostError:
+            result = await self._close()
+            if result is None or not result.code:
+                raise
+            raise self._ended(result) from None
+
+    async def _close(self) -> CommandResult | None:
+        """How the process ended; None without one, or if the link is cut."""
+        process, self._process = self._process, None
+        if process is not None:
+            with contextlib.suppress(HostError, TimeoutError):
+                async with asyncio.timeout(_CLOSE_TIMEOUT_S):
+                    return await process.close()
+        return None
+
+    def _ended(self, result: CommandResult | None) -> ContentError:
+        lines = result.error.splitlines() if result else []
+        code = f"exit code {result.code}" if result else "the connection was lost"
+        reason = lines[-1] if lines else code
+        return ContentError(f"{self._host}: {self.python} ended: {reason}")
 
 
 @cache

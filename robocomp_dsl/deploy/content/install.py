@@ -9,7 +9,6 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 
-from robocomp_dsl.deploy.content.host_python import HostPython
 from robocomp_dsl.deploy.content.host_session import HostSession
 from robocomp_dsl.deploy.content.lock import Environment
 from robocomp_dsl.deploy.content.transfer import (
@@ -19,7 +18,8 @@ from robocomp_dsl.deploy.content.transfer import (
     find_lacking,
     upload_blobs,
 )
-from robocomp_dsl.deploy.content.wheelhouse import Wheel, Wheelhouse
+from robocomp_dsl.deploy.content.wheel_target import WheelTarget
+from robocomp_dsl.deploy.content.wheelhouse import Wheelhouse
 from robocomp_dsl.deploy.hosts.connection import HostConnection
 
 CHECKED_IMPORTS = ("robocomp_dsl.runtime", "numpy", "yaml", "zenoh")
@@ -39,7 +39,7 @@ async def install_environment(
     connection: HostConnection,
     root: str,
     environment: Environment,
-    python: HostPython,
+    python: WheelTarget,
     wheelhouse: Wheelhouse,
     *,
     progress: Progress | None = None,
@@ -47,8 +47,7 @@ async def install_environment(
     """Copy the wheels that a host lacks, and install the environment there. Raises `HostError`."""
     started = time.monotonic()
     async with HostSession(connection, root, python.path) as session:
-        blobs = [_blob(wheel) for wheel in wheelhouse.all_wheels]
-        state = await find_lacking(session, (), blobs)
+        state = await find_lacking(session, (), wheel_blobs(wheelhouse))
         result = await upload_blobs(connection, session, state, progress)
         await session.call(
             "install_environment",
@@ -65,5 +64,6 @@ async def install_environment(
     return result
 
 
-def _blob(wheel: Wheel) -> Blob:
-    return Blob(wheel.sha256, wheel.size, str(wheel.path))
+def wheel_blobs(wheelhouse: Wheelhouse) -> list[Blob]:
+    """The wheels as contents of a host."""
+    return [Blob(wheel.sha256, wheel.size, str(wheel.path)) for wheel in wheelhouse.all_wheels]

@@ -7,11 +7,13 @@ and no network. Its versions are those installed here.
 from __future__ import annotations
 
 import hashlib
+import posixpath
+import shlex
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from importlib.metadata import entry_points
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 from packaging.requirements import Requirement
 
@@ -25,12 +27,12 @@ from robocomp_dsl.deploy.content.distributions import (
     module_origin,
 )
 from robocomp_dsl.deploy.content.hash_cache import HashCache
-from robocomp_dsl.deploy.content.host_python import HostPython
 from robocomp_dsl.deploy.content.package_files import NAME, is_runtime, package_version
 from robocomp_dsl.deploy.content.python_imports import ImportPlace, ImportReader
 from robocomp_dsl.deploy.content.requirements_file import FILE_NAME, read_requirements
 from robocomp_dsl.deploy.content.tree import ContentTree
-from robocomp_dsl.deploy.plan import PYTHON_PROGRAMS, Process
+from robocomp_dsl.deploy.content.wheel_target import WheelTarget
+from robocomp_dsl.deploy.plan import PYTHON_PROGRAMS, Plan, Process
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.model.port_middlewares import port_middlewares
@@ -73,32 +75,37 @@ class EnvironmentLocker:
     def __init__(
         self,
         deployment: Deployment,
-        python: HostPython,
+        plan: Plan,
+        python: WheelTarget,
         report: Report,
         hashes: HashCache | None = None,
         reader: ImportReader | None = None,
     ) -> None:
         self._deployment = deployment
+        names = (process.name for process in plan.components)
+        self._instances = dict(zip(names, deployment.instances, strict=True))
         self._python = python
         self._report = report
         self._hashes = hashes or HashCache()
         self._reader = reader or ImportReader()
         self._closures: dict[tuple[frozenset[str], bool], Environment] = {}
 
-    def lock(self, instance: Instance, process: Process, tree: ContentTree) -> Environment | None:
-        """The environment of a component; None for a program that is not Python."""
-        words = instance.executable.split()
-        if not words or words[0] not in PYTHON_PROGRAMS:
-            return None
-        imports = self._imports(words, tree)
-        roots = dict.fromkeys(RUNTIME_REQUIREMENTS, instance.span)
-        roots |= dict.fromkeys(self._middlewares(instance), instance.span)
+    def lock(self, process: Process, tree: ContentTree) -> Environment | None:
+        """The environment of a process; None for a program that is not Python."""
+        roots: dict[str, Span] = {}
+        imports: dict[str, ImportPlace] = {}
+        for member in process.members or (process,):
+            instance = self._instances[member.name]
+            words = shlex.split(instance.executable)
+            if words[0] not in PYTHON_PROGRAMS:
+                return None
+            roots |= dict.fromkeys(RUNTIME_REQUIREMENTS, instance.span)
+            roots |= dict.fromkeys(self._middlewares(instance), instance.span)
+            imports |= self._imports(words, member, tree)
+            roots |= self._listed(member.cwd)
         roots |= dict(self._imported(imports))
-        path = process.cwd / FILE_NAME
-        for requirement, line in read_requirements(process.cwd, self._report):
-            roots[str(requirement)] = Source.read(path).span_at(line, 1, 1)
         complete = any(
-            name.startswith(f"{NAME}.") and not is_runtime(name) and module_exists(name)
+            name.startswith(f"{NAME}.") and not is_runtime(name) and is_part(name)
             for name in imports
         )
         return self._close(roots, complete=complete)
@@ -117,14 +124,26 @@ class EnvironmentLocker:
             found, problems = close_requirements(requirements, markers)
             self._report_problems(problems, roots)
             version = package_version(complete=complete, hashes=self._hashes)
+            self._hashes.save()
             self._closures[key] = Environment(
                 self._python.minor, self._python.platform, version, found, complete
             )
         return self._closures[key]
 
-    def _imports(self, words: list[str], tree: ContentTree) -> dict[str, ImportPlace]:
+    def _listed(self, folder: Path) -> dict[str, Span]:
+        """The requirements in the file of a component, each with its line."""
+        requirements = read_requirements(folder, self._report)
+        if not requirements:
+            return {}
+        source = Source.read(folder / FILE_NAME)
+        return {str(requirement): source.span_at(line) for requirement, line in requirements}
+
+    def _imports(
+        self, words: list[str], process: Process, tree: ContentTree
+    ) -> dict[str, ImportPlace]:
         files = {file.path: (file.sha256, file.source) for file in tree.files}
-        scripts = [str(PurePosixPath(tree.working_folder, word)) for word in words[1:]]
+        folder = dict(tree.named)[str(process.cwd.resolve())]
+        scripts = [posixpath.normpath(f"{folder}/{word}") for word in words[1:]]
         scripts += [place for _, place in tree.named if place.endswith(".py")]
         found: dict[str, ImportPlace] = {}
         for script in dict.fromkeys(scripts):
@@ -178,7 +197,7 @@ class EnvironmentLocker:
             self._report.add(codes.DISTRIBUTION, span, problem.message, help=problem.help)
 
 
-def module_exists(name: str) -> bool:
+def is_part(name: str) -> bool:
     """Whether `robocomp_dsl.part` of a dotted name is a module, and not a name in it."""
     part = name.split(".")[1]
     folder = Path(__file__).parents[2]

@@ -12,7 +12,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from robocomp_dsl.deploy.plan import Process
 from robocomp_dsl.model.deployment import Connection, Instance
 
 _LONGEST_PATH = 4096
@@ -38,31 +37,49 @@ class NamedFiles:
     folders: tuple[Path, ...]
 
 
-def named_files(
-    instance: Instance,
-    process: Process,
-    connections: Sequence[Connection],
-    description: Path,
-    extra: Sequence[Path],
-    config: Path | None,
-) -> NamedFiles:
-    """Files of the configuration, `set`, monitors, the command line and `extra`.
+class NamedFileFinder:
+    """Finds named files; folders and command lines that instances share are looked at once.
 
-    `description` is the DDSL file, `config` the configuration that the instance reads.
+    `description` is the DDSL file.
     """
-    folder = process.cwd.resolve()
-    files = [NamedFile(place_of(config), str(config))] if config else []
-    files += [NamedFile(place_of(folder / path), str(path)) for path in extra]
-    files += _monitors(instance, connections)
-    files += _program_files(instance, folder)
-    bases = [config.absolute().parent] if config else []
-    bases += [folder, description.parent.resolve()]
-    folders = []
-    for text in _texts(instance):
-        files += _value_files(text, bases, folder)
-        if text.startswith(("../", "./")):
-            folders.append(place_of(folder / text).parent)
-    return NamedFiles(tuple(dict.fromkeys(files)), tuple(dict.fromkeys(folders)))
+
+    def __init__(self, description: Path, connections: Sequence[Connection]) -> None:
+        self._folder = description.parent.resolve()
+        self._resolved: dict[Path, Path] = {}
+        self._programs: dict[tuple[str, Path], tuple[NamedFile, ...]] = {}
+        self._monitors: dict[str, list[NamedFile]] = {}
+        for connection in connections:
+            for monitor in connection.monitors:
+                end = connection.source if monitor.position == "sender" else connection.target
+                path = Path(monitor.file).resolve()
+                self._monitors.setdefault(end.full_name, []).append(NamedFile(path, str(path)))
+
+    def resolve(self, folder: Path) -> Path:
+        """The folder without symbolic links."""
+        if folder not in self._resolved:
+            self._resolved[folder] = folder.resolve()
+        return self._resolved[folder]
+
+    def find(self, instance: Instance, folder: Path, config: Path | None) -> NamedFiles:
+        """Files of the configuration, `files`, `set`, monitors and the command line.
+
+        `folder` is that of the component, resolved; `config` is what the instance reads.
+        """
+        files = [NamedFile(place_of(config), str(config))] if config else []
+        files += [NamedFile(place_of(folder / path), str(path)) for path in instance.files]
+        files += self._monitors.get(instance.full_name, ())
+        key = (instance.executable, folder)
+        if key not in self._programs:
+            self._programs[key] = tuple(_program_files(*key))
+        files += self._programs[key]
+        bases = [config.absolute().parent] if config else []
+        bases += [folder, self._folder]
+        folders = []
+        for text in _texts(instance):
+            files += _value_files(text, bases, folder)
+            if text.startswith(("../", "./")):
+                folders.append(place_of(folder / text).parent)
+        return NamedFiles(tuple(dict.fromkeys(files)), tuple(dict.fromkeys(folders)))
 
 
 def place_of(path: Path) -> Path:
@@ -71,18 +88,9 @@ def place_of(path: Path) -> Path:
     return path.parent.resolve() / path.name
 
 
-def _monitors(instance: Instance, connections: Sequence[Connection]) -> Iterator[NamedFile]:
-    for connection in connections:
-        for monitor in connection.monitors:
-            end = connection.source if monitor.position == "sender" else connection.target
-            if end is instance:
-                path = Path(monitor.file).resolve()
-                yield NamedFile(path, str(path))
-
-
-def _program_files(instance: Instance, folder: Path) -> Iterator[NamedFile]:
+def _program_files(executable: str, folder: Path) -> Iterator[NamedFile]:
     """Files that the words of `executable` name, relative to the folder or in it."""
-    for word in shlex.split(instance.executable):
+    for word in shlex.split(executable):
         path = folder / word
         is_absolute = Path(word).is_absolute()
         if path.is_file() and (not is_absolute or path.is_relative_to(folder)):

@@ -67,6 +67,14 @@ class CopyResult:
     trees: int = 0
     seconds: float = 0.0
 
+    def __add__(self, other: CopyResult) -> CopyResult:
+        return CopyResult(
+            self.files + other.files,
+            self.bytes + other.bytes,
+            self.trees + other.trees,
+            self.seconds + other.seconds,
+        )
+
 
 def blobs_of(trees: Iterable[ContentTree]) -> dict[str, Blob]:
     """The contents of trees, by name."""
@@ -127,7 +135,7 @@ async def upload_blobs(
     jobs = [*_packs(state.blobs), *(job for blob in large for job in _chunks(blob))]
     pending = deque(job for job in jobs if not _is_there(job, state.chunks))
     result = CopyResult(files=len(state.blobs))
-    failure: HostError | None = None
+    failures: list[HostError] = []
     there = state.missing_bytes - sum(job.size for job in pending)
 
     async def work(channel: HostSession) -> None:
@@ -138,33 +146,28 @@ async def upload_blobs(
             if progress:
                 progress(there + result.bytes, state.missing_bytes)
 
-    async def work_in_new_session() -> None:
-        async with HostSession(connection, session.root, session.python) as channel:
-            await work(channel)
+    async def work_until_failure(channel: HostSession) -> None:
+        try:
+            if channel is session:
+                await work(channel)
+                return
+            async with channel:
+                await work(channel)
+        except HostError as error:
+            failures.append(error)
+            pending.clear()  # the others end after their present job
 
-    try:
-        async with asyncio.TaskGroup() as group:
-            group.create_task(work(session))
-            for _ in range(min(CHANNELS, len(pending)) - 1):
-                group.create_task(work_in_new_session())
-    except* HostError as errors:
-        failure = next(_leaves(errors))
-    if failure:
-        raise failure
+    more = max(0, min(CHANNELS, len(pending)) - 1)
+    channels = [HostSession(connection, session.root, session.python) for _ in range(more)]
+    await asyncio.gather(*map(work_until_failure, [session, *channels]))
+    if failures:
+        raise failures[0]
     for blob in large:
         sizes = [job.size for job in _chunks(blob)]
         answer = await session.call("join_chunks", {"name": blob.name, "sizes": sizes})
         _check_intact(answer, [blob])
     result.seconds = time.monotonic() - started
     return result
-
-
-def _leaves(group: BaseExceptionGroup[HostError]) -> Iterator[HostError]:
-    for error in group.exceptions:
-        if isinstance(error, BaseExceptionGroup):
-            yield from _leaves(error)
-        else:
-            yield error
 
 
 @dataclass(frozen=True, slots=True)

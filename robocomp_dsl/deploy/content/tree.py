@@ -1,4 +1,4 @@
-"""The files of one component as they are on its host.
+"""The files of one process as they are on its host.
 
 In: paths inside the tree and their content hashes. Out: `ContentTree`, whose hash depends on paths,
 contents and permission to execute only. Pure.
@@ -34,12 +34,12 @@ class TreeFile:
 
 @dataclass(frozen=True)
 class ContentTree:
-    """The files of one component, sorted by path.
+    """The files of one process, sorted by path.
 
     `origin` is the folder of this machine that the tree mirrors; `working_folder` is relative to
     it. `folders` exist there even if they are empty. `named` are absolute paths as the command line
-    has them, each with its place in the tree, longest first. `config` is the place of a
-    configuration that the component would search for in its context.
+    has them, each with its place in the tree, longest first. `configs` are the places of the
+    configurations that components would search for in their contexts, by full name.
     """
 
     origin: Path
@@ -47,7 +47,7 @@ class ContentTree:
     files: tuple[TreeFile, ...]
     folders: tuple[str, ...] = ()
     named: tuple[tuple[str, str], ...] = ()
-    config: str = ""
+    configs: tuple[tuple[str, str], ...] = ()
 
     @cached_property
     def hash(self) -> str:
@@ -68,7 +68,7 @@ def make_tree(
     files: Iterable[TreeFile],
     folders: Iterable[str] = (),
     named: Iterable[tuple[str, str]] = (),
-    config: str = "",
+    configs: Iterable[tuple[str, str]] = (),
 ) -> ContentTree:
     """A tree with sorted files, each path once."""
     by_path = {file.path: file for file in files}
@@ -78,5 +78,5 @@ def make_tree(
         tuple(by_path[path] for path in sorted(by_path)),
         tuple(sorted(set(folders))),
         tuple(named),
-        config,
+        tuple(configs),
     )

@@ -7,13 +7,15 @@ cache, from the installation here if it fits the host, or from the package index
 from __future__ import annotations
 
 import importlib.util
+import os
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
 import zipfile
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -26,10 +28,10 @@ from robocomp_dsl.deploy.content.distributions import (
     find_installed,
 )
 from robocomp_dsl.deploy.content.hash_cache import HashCache, cache_folder
-from robocomp_dsl.deploy.content.host_python import HostPython
 from robocomp_dsl.deploy.content.lock import RUNTIME_REQUIREMENTS, Environment
 from robocomp_dsl.deploy.content.package_files import write_package_wheel
 from robocomp_dsl.deploy.content.repack import installed_tags, repack
+from robocomp_dsl.deploy.content.wheel_target import WheelTarget
 
 _DOWNLOAD_TIMEOUT_S = 900.0
 _NO_MATCH = re.compile(r"No matching distribution found for (\S+)")
@@ -76,16 +78,18 @@ class WheelStore:
         self._hashes = hashes or HashCache()
 
     def collect(
-        self, environment: Environment, python: HostPython
+        self, environment: Environment, python: WheelTarget
     ) -> tuple[Wheelhouse | None, list[RequirementProblem]]:
         """The wheels of an environment; None with problems. Takes seconds if some are missing."""
         self._folder.mkdir(parents=True, exist_ok=True)
         uv = LockedDistribution("uv", _uv_version())
         needed = (*environment.distributions, uv)
-        paths = self._find_all(needed, python)
+        tags = python.tags()
+        paths = _cached_wheels(self._folder, tags)
+        paths |= self._repack_all([d for d in needed if d not in paths], tags)
         missing = [d for d in needed if d not in paths]
         problems = self._download(missing, python) if missing else []
-        paths = self._find_all(needed, python)
+        paths |= _cached_wheels(self._folder, tags) if missing else {}
         absent = [d for d in needed if d not in paths]
         if absent:
             named = {canonicalize_name(p.requirement.partition("==")[0]) for p in problems}
@@ -96,24 +100,20 @@ class WheelStore:
         wheels.append(self._wheel(own, self._package_wheel(environment)))
         return Wheelhouse(tuple(wheels), self._wheel(uv, paths[uv])), []
 
-    def _find_all(
-        self, needed: Iterable[LockedDistribution], python: HostPython
+    def _repack_all(
+        self, missing: Sequence[LockedDistribution], tags: frozenset[str]
     ) -> dict[LockedDistribution, Path]:
-        """Wheels in the cache, and those that the installation here gives."""
-        tags = python.tags()
-        cached = _cached_wheels(self._folder, tags)
-        found = {}
-        for locked in needed:
-            path = cached.get(locked) or self._repack(locked, tags)
-            if path:
-                found[locked] = path
-        return found
+        """Wheels of installations here that fit the host; their bytes are those that run here."""
 
-    def _repack(self, locked: LockedDistribution, tags: frozenset[str]) -> Path | None:
-        installed = find_installed(locked.name)
-        if installed is None or installed.version != locked.version:
-            return None
-        return repack(installed, self._folder) if installed_tags(installed) & tags else None
+        def repack_fitting(locked: LockedDistribution) -> Path | None:
+            installed = find_installed(locked.name)
+            if installed is None or installed.version != locked.version:
+                return None
+            return repack(installed, self._folder) if installed_tags(installed) & tags else None
+
+        with ThreadPoolExecutor(os.cpu_count()) as pool:  # compression releases the lock
+            paths = pool.map(repack_fitting, missing)
+            return {locked: path for locked, path in zip(missing, paths, strict=True) if path}
 
     def _package_wheel(self, environment: Environment) -> Path:
         version = environment.package_version
@@ -123,7 +123,7 @@ class WheelStore:
         return write_package_wheel(self._folder, version, RUNTIME_REQUIREMENTS, complete=complete)
 
     def _download(
-        self, missing: Sequence[LockedDistribution], python: HostPython
+        self, missing: Sequence[LockedDistribution], python: WheelTarget
     ) -> list[RequirementProblem]:
         """Get wheels from the index; all at once, and one by one if that fails."""
         reason = self._pip(missing, python)
@@ -134,7 +134,7 @@ class WheelStore:
         reasons = {locked: self._pip([locked], python) for locked in missing}
         return [_no_wheel(locked, python, reason) for locked, reason in reasons.items() if reason]
 
-    def _pip(self, requested: Sequence[LockedDistribution], python: HostPython) -> str:
+    def _pip(self, requested: Sequence[LockedDistribution], python: WheelTarget) -> str:
         """Why `pip download` failed; empty if it did not."""
         pip = _pip_command()
         if pip is None:
@@ -201,7 +201,7 @@ def _run(command: Sequence[str]) -> str:
     return (lines or result.stderr.splitlines() or [f"exit code {result.returncode}"])[-1]
 
 
-def _no_wheel(locked: LockedDistribution, python: HostPython, reason: str) -> RequirementProblem:
+def _no_wheel(locked: LockedDistribution, python: WheelTarget, reason: str) -> RequirementProblem:
     host = f"Python {python.minor} on {python.machine} with {_describe_libc(python)}"
     if reason and not _NO_MATCH.search(reason):
         message = f"the wheel of {locked} for {host} cannot be downloaded: {reason}"
@@ -212,7 +212,7 @@ def _no_wheel(locked: LockedDistribution, python: HostPython, reason: str) -> Re
     return RequirementProblem(str(locked), message, help_text)
 
 
-def _describe_libc(python: HostPython) -> str:
+def _describe_libc(python: WheelTarget) -> str:
     name, version = ("glibc", python.glibc) if python.glibc else ("musl", python.musl)
     return f"{name} {version[0]}.{version[1]}"
 

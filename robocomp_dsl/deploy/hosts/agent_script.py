@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import contextlib
 import fcntl
+import hashlib
 import json
 import os
 import re
@@ -32,6 +33,8 @@ CPU_SAMPLE_S = 0.2
 TICKS = os.sysconf("SC_CLK_TCK")
 PAGE = os.sysconf("SC_PAGE_SIZE")
 REVISION = b"ROBOCOMP_UNIT="
+DRAFT = re.compile(r"\.[0-9a-f]{8}~$")
+"""A file that is not yet complete; the deployer renames it at the end."""
 
 
 def systemctl(*words: str) -> tuple[int, str, str]:
@@ -115,7 +118,7 @@ class Agent:
         return {
             name: text
             for name in names
-            if name.startswith(self.prefixes)
+            if name.startswith(self.prefixes) and not DRAFT.search(name)
             for text in [read_text(UNITS / name)]
             if text is not None
         }
@@ -145,11 +148,20 @@ class Agent:
             "current": current,
             "versions": self.versions(),
             "manifest": manifest,
+            "router": self.router_settings(),
             "units": files,
             "states": states,
             "monotonic": time.clock_gettime(time.CLOCK_MONOTONIC),
             "time": time.time(),
         }
+
+    def router_settings(self) -> str:
+        """The hash of the settings that the router has."""
+        try:
+            content = (self.root / "private" / "router.json").read_bytes()
+        except OSError:
+            return ""
+        return hashlib.sha256(content).hexdigest()[:16]
 
     def versions(self) -> list[int]:
         """The numbers of the versions that are stored here."""
@@ -172,7 +184,17 @@ class Agent:
         os.ftruncate(descriptor, 0)
         os.write(descriptor, who.encode())
         self.lock = descriptor
+        self.remove_drafts()
         return {"holder": ""}
+
+    def remove_drafts(self) -> None:
+        """Remove what a deployer has left that was killed while it wrote."""
+        for folder in (UNITS, self.root, self.root / "versions", self.root / "private"):
+            with contextlib.suppress(OSError):
+                for path in folder.iterdir():
+                    own = folder != UNITS or path.name.startswith(self.prefixes)
+                    if own and DRAFT.search(path.name):
+                        path.unlink()
 
     def control(self, operation: str, units: list[str]) -> dict[str, Any]:
         """`systemctl VERB UNITS`; for long jobs without waiting."""

@@ -7,6 +7,7 @@ loop; its methods may run concurrently.
 from __future__ import annotations
 
 from collections.abc import AsyncIterator, Sequence
+from importlib import import_module
 from typing import Protocol
 
 from robocomp_dsl.deploy.hosts.commands import COMMAND_TIMEOUT_S, CommandResult, Upload
@@ -63,6 +64,12 @@ async def connect(host: Host) -> HostConnection:
         from robocomp_dsl.deploy.hosts.local import LocalConnection  # noqa: PLC0415
 
         return LocalConnection(host)
-    from robocomp_dsl.deploy.hosts.ssh import connect_ssh  # noqa: PLC0415 - loads asyncssh
+    load_ssh()
+    from robocomp_dsl.deploy.hosts.ssh import connect_ssh  # noqa: PLC0415
 
     return await connect_ssh(host)
+
+
+def load_ssh() -> None:
+    """Load asyncssh now, which takes 0.1 s. Raises `MissingExtra` if it is not installed."""
+    import_module("robocomp_dsl.deploy.hosts.ssh_client")

@@ -6,25 +6,24 @@ all hosts come before the first change.
 
 from __future__ import annotations
 
-import sys
 import time
-from collections.abc import AsyncIterator, Callable, Iterable, Mapping
+from collections.abc import AsyncIterator, Callable, Iterable
 from contextlib import asynccontextmanager
+from datetime import UTC, datetime
 
-from robocomp_dsl.deploy.content.describe import describe_trees
-from robocomp_dsl.deploy.content.tree import ContentTree
 from robocomp_dsl.deploy.hosts import registry
-from robocomp_dsl.deploy.hosts.copying import copy_trees
-from robocomp_dsl.deploy.hosts.description import (
-    HostSettings,
-    all_components,
-    deployment_hosts,
-    describe_hosts,
-)
+from robocomp_dsl.deploy.hosts.description import all_components, deployment_hosts
 from robocomp_dsl.deploy.hosts.differences import HostChanges
-from robocomp_dsl.deploy.hosts.errors import HostError
 from robocomp_dsl.deploy.hosts.fleet import Fleet, open_fleet
-from robocomp_dsl.deploy.hosts.manifest import HostManifest
+from robocomp_dsl.deploy.hosts.fleet_content import FleetContent
+from robocomp_dsl.deploy.hosts.host_checks import (
+    HostLimits,
+    check_facts,
+    describe_failure,
+    host_spans,
+)
+from robocomp_dsl.deploy.hosts.host_engine import show_last_lines
+from robocomp_dsl.deploy.hosts.placing import candidate_hosts, place_on
 from robocomp_dsl.deploy.hosts.registry import HostedDeployment
 from robocomp_dsl.deploy.hosts.rollout import (
     RolloutResult,
@@ -33,6 +32,10 @@ from robocomp_dsl.deploy.hosts.rollout import (
     raise_failures,
     roll_out,
 )
+from robocomp_dsl.deploy.network.identities import needs_network
+from robocomp_dsl.deploy.network.key_checks import check_keys
+from robocomp_dsl.deploy.network.key_folder import key_folder
+from robocomp_dsl.deploy.network.operator_settings import write_operator_settings
 from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.diagnostics import Diagnostic, Report, Severity
 from robocomp_dsl.model.deployment import Deployment, Host
@@ -49,59 +52,95 @@ class Rejected(Exception):
 class Deployer:
     """Deploys one plan; `say` gets lines of text."""
 
-    def __init__(self, deployment: Deployment, plan: Plan, say: Callable[[str], object]) -> None:
+    def __init__(
+        self,
+        deployment: Deployment,
+        plan: Plan,
+        say: Callable[[str], object],
+        limits: HostLimits | None = None,
+    ) -> None:
         self._deployment = deployment
         self._plan = plan
         self._say = say
+        self._limits = limits or HostLimits()
         self._report = Report()
         self.warnings: list[Diagnostic] = []
 
     async def up(self) -> RolloutResult:
         """Make the hosts as described. Raises `Rejected` and `HostError`."""
-        described, trees = self._describe()
         async with self._checked_fleet() as fleet:
+            content = self._describe(fleet)
+            checks = await content.check(fleet, self._report)
+            raise_failures(fleet)
+            self._reject_errors()
             await lock_hosts(fleet)
 
             async def copy(fleet: Fleet) -> None:
-                await copy_trees(fleet, described, trees)
+                await content.copy(fleet, checks, self._say)
 
-            result = await roll_out(fleet, described, copy, self._say)
-            self._register(described)
+            result = await roll_out(
+                fleet, content.manifests, copy, self._say, is_complete=content.is_complete(checks)
+            )
+            self._register(content)
+            for name in result.failed:
+                component = all_components(content.manifests.values())[name]
+                await show_last_lines(fleet, component, self._say)
+            if not result.failed:
+                await content.collect_garbage(fleet)
         return result
 
     async def diff(self) -> list[HostChanges]:
         """What `up` would change. Raises `Rejected` and `HostError`."""
-        described, _ = self._describe()
         async with self._checked_fleet() as fleet:
+            content = self._describe(fleet)
             reports = await fleet.reports()
             raise_failures(fleet)
-        return all_changes(described, reports)
+        return all_changes(content.manifests, reports)
 
-    def _describe(self) -> tuple[dict[str, HostManifest], dict[str, ContentTree]]:
-        files = {i.full_name: i.files for i in self._deployment.instances}
-        trees = describe_trees(self._deployment, self._plan, self._report, files)
-        settings = {
-            host.name: HostSettings(sys.executable, sys.executable)
-            for host in deployment_hosts(self._deployment)
-        }
-        described = describe_hosts(self._deployment, self._plan, trees, settings, self._report)
+    def _describe(self, fleet: Fleet) -> FleetContent:
+        """What the hosts should have."""
+        content = FleetContent(self._deployment, self._plan, fleet.facts, self._report)
         self._reject_errors()
-        return described, trees
+        return content
 
     @asynccontextmanager
     async def _checked_fleet(self) -> AsyncIterator[Fleet]:
         """Connections to the hosts, which can run the deployment. Raises `Rejected`."""
-        hosts = deployment_hosts(self._deployment)
-        async with open_fleet([*hosts, *self._earlier_hosts(hosts)], self._plan.name) as fleet:
-            described = {host.name: host for host in hosts}
-            for name, failure in list(fleet.failures.items()):
-                if name in described:
-                    self._report.extend([self._finding(described[name], failure)])
-                else:
-                    del fleet.failures[name]
-                    self._say(f"{name}: what runs there is not stopped: {failure.message}")
-            self._reject_errors()
+        folder = key_folder(self._deployment.name)
+        check_keys(self._deployment, folder, datetime.now(UTC), self._report)
+        hosts = candidate_hosts(self._deployment)
+        earlier = self._earlier_hosts(hosts)
+        async with open_fleet([*hosts, *earlier], self._plan.name, with_facts=True) as fleet:
+            self._check_fleet(fleet, hosts)
+            await self._place(fleet)
             yield fleet
+
+    def _check_fleet(self, fleet: Fleet, hosts: Iterable[Host]) -> None:
+        described = {host.name: host for host in hosts}
+        spans = host_spans(self._deployment)
+        for name, failure in list(fleet.failures.items()):
+            if name in described:
+                span = spans.get(name, self._deployment.span)
+                self._report.extend([describe_failure(failure, span)])
+            else:
+                del fleet.failures[name]
+                self._say(f"{name}: what runs there is not stopped: {failure.message}")
+        for name, facts in fleet.facts.items():
+            if host := described.get(name):
+                span = spans.get(name, self._deployment.span)
+                self._report.extend(check_facts(host, facts, span, self._limits))
+        self._reject_errors()
+
+    async def _place(self, fleet: Fleet) -> None:
+        """Choose the hosts of components that name none."""
+        result = await place_on(fleet, self._deployment, self._plan)
+        if result is None:
+            return
+        self._report.extend(result.findings)
+        self._reject_errors()
+        self._deployment, self._plan = result.deployment, result.plan
+        for line in result.lines:
+            self._say(line)
 
     def _earlier_hosts(self, hosts: Iterable[Host]) -> list[Host]:
         """Hosts on which the deployment ran, and no longer does."""
@@ -109,26 +148,24 @@ class Deployer:
         entry = next((e for e in registry.registered() if e.name == self._plan.name), None)
         return [host for host in entry.hosts if host.name not in known] if entry else []
 
-    def _finding(self, host: Host, failure: HostError) -> Diagnostic:
-        span = host.span or self._deployment.span
-        return Diagnostic(failure.code, span, failure.message, help=failure.help)
-
     def _reject_errors(self) -> None:
         findings = self._report.sorted()
         if self._report.has_errors:
             raise Rejected(findings)
-        self.warnings = [f for f in findings if f.code.severity is Severity.WARNING]
+        self.warnings = [f for f in findings if f.severity is Severity.WARNING]
 
-    def _register(self, described: Mapping[str, HostManifest]) -> None:
-        hosts = deployment_hosts(self._deployment)
-        components = all_components(described.values())
-        ordered = tuple(components[process.name] for process in self._plan.processes)
+    def _register(self, content: FleetContent) -> None:
+        components = all_components(content.manifests.values())
+        order = {process.name: i for i, process in enumerate(self._plan.processes)}
         entry = HostedDeployment.from_components(
             self._plan.name,
             str(self._plan.path.resolve()),
             self._plan.domain,
-            hosts,
-            ordered,
+            deployment_hosts(self._deployment),
+            tuple(sorted(components.values(), key=lambda c: order.get(c.name, -1))),
             time.time(),
         )
         registry.register(entry)
+        if needs_network(self._deployment):
+            folder = key_folder(self._deployment.name)
+            write_operator_settings(self._deployment, self._plan.domain, folder)

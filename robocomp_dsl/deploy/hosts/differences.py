@@ -13,9 +13,9 @@ from typing import Any
 from robocomp_dsl.deploy import status
 from robocomp_dsl.deploy.hosts.host_report import HostReport, UnitState
 from robocomp_dsl.deploy.hosts.manifest import HostManifest, InvalidManifest
-from robocomp_dsl.deploy.units.service import find_revision
+from robocomp_dsl.deploy.units.service import find_revision, find_settings
 
-START, RESTART, STOP = "start", "restart", "stop"
+START, RESTART, RELOAD, STOP = "start", "restart", "reload", "stop"
 _LISTED_FILES = 5
 
 
@@ -42,6 +42,15 @@ class HostChanges:
     components: tuple[ComponentChange, ...] = ()
     written: tuple[str, ...] = ()
     removed: tuple[str, ...] = ()
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "host": self.host,
+            "components": [change.as_dict() for change in self.components],
+            "written": list(self.written),
+            "removed": list(self.removed),
+        }
 
     def __bool__(self) -> bool:
         return bool(self.components or self.written or self.removed)
@@ -100,6 +109,11 @@ def _change(
     running = state.revision or find_revision(report.units[unit])
     if running != described:
         return RESTART, _reason(report.units[unit], units[unit])
+    if (settings := find_settings(units[unit])) and (
+        settings != find_settings(report.units[unit])
+        or not settings.startswith(f"{report.router}-")
+    ):
+        return RELOAD, "changed: access rules, addresses or certificate"
     if state.state == status.BACKOFF:
         return RESTART, f"restarting: {state.note}" if state.note else "restarting"
     return None
@@ -108,7 +122,11 @@ def _change(
 def _reason(old: str, new: str) -> str:
     """What differs between two texts of a unit."""
     before, after = _settings(old), _settings(new)
-    parts = {"Tree": "files", "Environment": "Python packages", "Certificate": "certificate"}
+    parts = {
+        "Tree": "files",
+        "Environment": "Python packages",
+        "Certificate": "network settings or certificate",
+    }
     identity = [
         text
         for key, text in parts.items()
@@ -121,20 +139,19 @@ def _reason(old: str, new: str) -> str:
         for section, key in before.keys() | after.keys()
         if section == "Service"
         and key not in hidden
-        and not key.startswith("ROBOCOMP_UNIT")
+        and key not in _NOT_SHOWN
         and before.get((section, key)) != after.get((section, key))
     }
     texts = [*identity, *sorted(_NAMES.get(key, key) for key in keys)]
     return f"changed: {', '.join(texts)}" if texts else "runs an earlier version"
 
 
+_NOT_SHOWN = {"ROBOCOMP_UNIT", "WatchdogSignal", "MemorySwapMax", "CPUSchedulingPolicy"}
 _NAMES = {
     "ExecStart": "command line",
     "Type": "readiness",
     "ExecStartPost": "readiness",
-    "TimeoutStartSec": "time to be ready",
     "WatchdogSec": "watchdog",
-    "Restart": "restart policy",
     "MemoryMax": "memory limit",
     "CPUQuota": "CPU limit",
     "CPUAffinity": "cores",
@@ -186,5 +203,6 @@ def format_changes(all_changes: Iterable[HostChanges]) -> list[str]:
                 lines.append(f"    … and {more} more")
         units = [*changes.written, *changes.removed]
         if units and not changes.components:
-            lines.append(f"{changes.host}: {len(units)} unit files differ, nothing restarts")
+            files = "unit file differs" if len(units) == 1 else "unit files differ"
+            lines.append(f"{changes.host}: {len(units)} {files}, nothing restarts")
     return lines

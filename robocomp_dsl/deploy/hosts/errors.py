@@ -5,6 +5,13 @@ from __future__ import annotations
 from robocomp_dsl.deploy.hosts import codes
 from robocomp_dsl.diagnostics import Code
 
+_STATES = {
+    codes.UNREACHABLE.id: "unreachable",
+    codes.LOGIN.id: "login refused",
+    codes.UNKNOWN_KEY.id: "unknown key",
+    codes.CHANGED_KEY.id: "changed key",
+}
+
 
 class HostError(Exception):
     """A host cannot be used; the message begins with the host, `help` says what to do."""
@@ -14,6 +21,11 @@ class HostError(Exception):
         self.message = message
         self.help = help
         self.code = code
+
+    @property
+    def state(self) -> str:
+        """The error in two words, for tables."""
+        return _STATES.get(self.code.id, "not usable")
 
 
 class HostUnreachable(HostError):

@@ -14,6 +14,7 @@ from typing import TypeVar
 from robocomp_dsl.deploy.hosts.connection import HostConnection, connect
 from robocomp_dsl.deploy.hosts.errors import HostError, HostUnreachable
 from robocomp_dsl.deploy.hosts.host_agent import HostAgent, open_agent
+from robocomp_dsl.deploy.hosts.host_facts import HostFacts, fetch_facts
 from robocomp_dsl.deploy.hosts.host_report import HostReport
 from robocomp_dsl.model.deployment import Host
 
@@ -24,9 +25,10 @@ Result = TypeVar("Result")
 
 @dataclass(slots=True)
 class Fleet:
-    """The agents of hosts by name, and why others have none."""
+    """The agents of hosts by name, and why others have none; `facts` if they were requested."""
 
     agents: dict[str, HostAgent] = field(default_factory=dict)
+    facts: dict[str, HostFacts] = field(default_factory=dict)
     failures: dict[str, HostError] = field(default_factory=dict)
 
     async def each(self, action: Callable[[HostAgent], Awaitable[Result]]) -> dict[str, Result]:
@@ -52,7 +54,11 @@ class Fleet:
 
 @asynccontextmanager
 async def open_fleet(
-    hosts: Iterable[Host], deployment: str, timeout_s: float = CONNECT_TIMEOUT_S
+    hosts: Iterable[Host],
+    deployment: str,
+    timeout_s: float = CONNECT_TIMEOUT_S,
+    *,
+    with_facts: bool = False,
 ) -> AsyncIterator[Fleet]:
     """Connect to all hosts at the same time; each has `timeout_s` seconds."""
     fleet = Fleet()
@@ -63,6 +69,9 @@ async def open_fleet(
             async with asyncio.timeout(timeout_s):
                 connection = await connect(host)
                 connections.append(connection)
+            if with_facts:
+                fleet.facts[host.name] = await fetch_facts(connection, deployment)
+            async with asyncio.timeout(timeout_s):
                 fleet.agents[host.name] = await open_agent(connection, deployment)
         except HostError as error:
             fleet.failures[host.name] = error

@@ -31,7 +31,12 @@ from robocomp_dsl.deploy.hosts.rollout import (
     roll_out,
     start_helpers,
 )
-from robocomp_dsl.deploy.hosts.stored_versions import check_trees, fetch_version
+from robocomp_dsl.deploy.hosts.stored_versions import (
+    StoredVersion,
+    check_trees,
+    fetch_version,
+    list_versions,
+)
 from robocomp_dsl.deploy.hosts.unit_runner import UnitRunner, with_requirements
 from robocomp_dsl.deploy.selection import NoSuchComponent, select_names
 from robocomp_dsl.deploy.status import ProcessStatus, format_duration
@@ -39,6 +44,7 @@ from robocomp_dsl.deploy.units import names as unit_names
 
 STATUS_TIMEOUT_S = 5.0
 """A host that does not answer within this time is shown as unreachable."""
+LIFECYCLE_STATES = ("initialize", "compute", "emergency", "finalize")
 Result = TypeVar("Result")
 Report = Callable[[str], object]
 
@@ -69,12 +75,20 @@ class HostEngine:
 
     def components(self) -> list[str]:
         """See `Engine`."""
-        return [name for name, _ in self.deployment.places]
+        members = dict(self.deployment.members)
+        return [
+            each for name, _ in self.deployment.places for each in (name, *members.get(name, ()))
+        ]
 
     def answering_components(self) -> list[str]:
         """See `Engine`."""
-        programs = set(self.deployment.programs)
-        return [name for name in self.components() if name not in programs]
+        members = dict(self.deployment.members)
+        return [
+            each
+            for name, _ in self.deployment.places
+            if name not in self.deployment.programs
+            for each in members.get(name, (name,))
+        ]
 
     def status(self) -> DeploymentStatus:
         """See `Engine`."""
@@ -104,7 +118,7 @@ class HostEngine:
             manifests, states = await self._deployed(fleet)
             components = {c.name: c for m in manifests.values() for c in m.components}
             try:
-                selected = select_names(names, list(components.values())) if names else None
+                selected = select_names(names, [*components.values()]) if names else None
             except NoSuchComponent as error:
                 raise EngineError(str(error)) from None
             chosen = list(components) if selected is None else selected
@@ -182,6 +196,16 @@ class HostEngine:
     async def _stop_helpers(self, agent: HostAgent) -> None:
         report = await agent.report()
         await agent.systemctl("stop", list(report.units))
+
+    def versions(self) -> list[StoredVersion]:
+        """The stored versions, oldest first. Raises `EngineError`."""
+        return run_async(self._versions())
+
+    async def _versions(self) -> list[StoredVersion]:
+        async with self._fleet() as fleet:
+            reports = await fleet.reports()
+            raise_failures(fleet)
+            return await list_versions(fleet, self.name, reports)
 
     def roll_back(self, version: int, report: Report) -> RolloutResult:
         """Run another stored version; 0: the one before. Raises `EngineError`."""
@@ -268,7 +292,9 @@ def host_rows(report: HostReport) -> list[ProcessStatus]:
 
 def component_status(component: HostedComponent, state: UnitState) -> ProcessStatus:
     """The status of one component. Its lifecycle is what it told systemd."""
-    life, _, reason = state.text.partition(": ") if not component.is_program else ("", "", "")
+    life, _, reason = state.text.partition(": ")
+    if life not in LIFECYCLE_STATES:
+        life, reason = "", state.text
     note = state.note or (reason if state.pid else "")
     return ProcessStatus(
         component.name,
@@ -278,8 +304,9 @@ def component_status(component: HostedComponent, state: UnitState) -> ProcessSta
         restarts=state.restarts,
         cpu=state.cpu,
         memory=state.memory,
-        note=note or (state.text if component.is_program and state.pid else ""),
-        life=life if state.pid else "",
+        note=note,
+        life=life if state.pid and not component.is_program else "",
+        members=tuple((name, life) for name in component.member_names) if state.pid else (),
         host=component.host,
     )
 

@@ -134,7 +134,8 @@ _EXITS = {
 class HostReport:
     """What is deployed on a host, and what runs. `versions` are stored, `current` is in force.
 
-    `manifest` is the text of the current version; `units` are the texts of unit files.
+    `manifest` is the text of the current version; `units` are the texts of unit files; `router` is
+    the hash of the router's settings.
     """
 
     current: str
@@ -143,6 +144,7 @@ class HostReport:
     units: Mapping[str, str]
     states: Mapping[str, UnitState]
     time: float
+    router: str = ""
 
     @staticmethod
     def from_dict(fields: Mapping[str, Any]) -> HostReport:
@@ -155,4 +157,5 @@ class HostReport:
             dict(fields["units"]),
             {u: UnitState.from_properties(p, now) for u, p in fields["states"].items()},
             float(fields["time"]),
+            str(fields["router"]),
         )

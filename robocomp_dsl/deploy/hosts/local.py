@@ -16,10 +16,13 @@ from robocomp_dsl.deploy.hosts.commands import (
     CommandResult,
     Upload,
 )
+from robocomp_dsl.deploy.hosts.error_tail import ErrorTail
 from robocomp_dsl.deploy.hosts.errors import HostTimeout, HostUnreachable, HostWriteError
 from robocomp_dsl.model.deployment import Host
 
 CHUNK_BYTES = 65536
+LINE_BYTES = 1 << 26
+"""The longest line that can be read."""
 
 
 class LocalProcess:
@@ -29,6 +32,7 @@ class LocalProcess:
         self._process = process
         self._input, self._output = _pipes(process)
         self._host = host
+        self._errors = ErrorTail(_errors_of(process).read)
 
     async def write(self, data: bytes) -> None:
         """Write to its standard input."""
@@ -45,7 +49,14 @@ class LocalProcess:
 
     async def close(self) -> CommandResult:
         """Close its input, and wait for its end."""
-        stdout, stderr = await self._process.communicate(b"")
+        try:
+            self._input.close()
+            stdout = await self._output.read()
+            stderr = await self._errors.finish()
+            await self._process.wait()
+        finally:
+            self._errors.cancel()
+            await _kill(self._process)
         return CommandResult(_exit_code(self._process), stdout, stderr)
 
 
@@ -116,6 +127,7 @@ class LocalConnection:
         return await asyncio.create_subprocess_exec(
             *("/bin/sh", "-c", ENVIRONMENT_SCRIPT, "sh", *command),
             cwd=Path.home(),
+            limit=LINE_BYTES,
             stdin=asyncio.subprocess.PIPE,
             stdout=asyncio.subprocess.PIPE,
             stderr=stderr,
@@ -133,6 +145,13 @@ def _pipes(
     if process.stdin is None or process.stdout is None:
         raise ValueError("the process has no pipes")
     return process.stdin, process.stdout
+
+
+def _errors_of(process: asyncio.subprocess.Process) -> asyncio.StreamReader:
+    """The standard error of a process that was started with it."""
+    if process.stderr is None:
+        raise ValueError("the process has no pipe for its errors")
+    return process.stderr
 
 
 def _absolute(path: str) -> Path:

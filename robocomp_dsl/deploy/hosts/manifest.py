@@ -24,8 +24,8 @@ class HostedComponent:
     """A component or program on a host.
 
     `after`: components that are ready before it starts; `stops_after`: those that have exited
-    before it stops. `tree` is the hash of its files. `member_names` are the components that run in
-    it, if it is the process of a group.
+    before it stops. `tree` is the hash of its files; `member_names` are the components of a group
+    that runs in one process.
     """
 
     name: str
@@ -98,8 +98,8 @@ class HostManifest:
 
 
 def _component(fields: Mapping[str, Any]) -> HostedComponent:
-    tuples = {key: tuple(fields[key]) for key in ("after", "stops_after", "member_names")}
-    return HostedComponent(**{**fields, **tuples})
+    lists = ("after", "stops_after", "member_names")
+    return HostedComponent(**{**fields, **{key: tuple(fields[key]) for key in lists}})
 
 
 def host_as_dict(host: Host) -> dict[str, Any]:

@@ -21,9 +21,9 @@ from robocomp_dsl.model.deployment import Host
 class HostedDeployment:
     """A deployment over hosts, as this user knows it.
 
-    `path` is its DDSL file. `places` are the full names of its components with the host of each;
-    `programs` are those that are no components. `since` in s since 1970; `is_stopped`: the user
-    has stopped it.
+    `path` is its DDSL file. `places` are the full names of its processes with the host of each;
+    `programs` are those that are no components, `members` the components of groups that run in one
+    process. `since` in s since 1970; `is_stopped`: the user has stopped it.
     """
 
     name: str
@@ -32,6 +32,7 @@ class HostedDeployment:
     hosts: tuple[Host, ...]
     places: tuple[tuple[str, str], ...]
     programs: tuple[str, ...] = ()
+    members: tuple[tuple[str, tuple[str, ...]], ...] = ()
     since: float = 0.0
     is_stopped: bool = False
 
@@ -47,7 +48,8 @@ class HostedDeployment:
         """The entry of a deployment with these components."""
         places = tuple((c.name, c.host) for c in components)
         programs = tuple(c.name for c in components if c.is_program)
-        return HostedDeployment(name, path, domain, hosts, places, programs, since)
+        members = tuple((c.name, c.member_names) for c in components if c.member_names)
+        return HostedDeployment(name, path, domain, hosts, places, programs, members, since)
 
 
 def registry_folder() -> Path:
@@ -69,6 +71,7 @@ def register(deployment: HostedDeployment) -> None:
         "hosts": [host_as_dict(host) for host in deployment.hosts],
         "places": [list(place) for place in deployment.places],
         "programs": list(deployment.programs),
+        "members": [[name, list(members)] for name, members in deployment.members],
         "since": deployment.since,
         "is_stopped": deployment.is_stopped,
     }
@@ -90,7 +93,6 @@ def registered() -> Iterator[HostedDeployment]:
             data = json.loads(path.read_text(encoding="utf-8"))
             places = tuple((str(name), str(host)) for name, host in data["places"])
             hosts = tuple(map(host_from_dict, data["hosts"]))
-            programs = tuple(data["programs"])
-            yield HostedDeployment(
-                **{**data, "hosts": hosts, "places": places, "programs": programs}
-            )
+            lists = {"hosts": hosts, "places": places, "programs": tuple(data["programs"])}
+            members = tuple((name, tuple(names)) for name, names in data["members"])
+            yield HostedDeployment(**{**data, **lists, "members": members})

@@ -16,7 +16,9 @@ from dataclasses import dataclass, field
 from robocomp_dsl.deploy.hosts import codes
 from robocomp_dsl.deploy.hosts.connection import Upload
 from robocomp_dsl.deploy.hosts.differences import (
+    RELOAD,
     RESTART,
+    START,
     STOP,
     HostChanges,
     compare,
@@ -96,22 +98,25 @@ async def roll_out(
     report: Report,
     *,
     version: int = 0,
+    is_complete: bool = True,
 ) -> RolloutResult:
     """Make the hosts as described; the caller holds the locks. Raises `HostError`.
 
-    `version` is the number of a stored version; 0: a new one.
+    `version` is the number of a stored version; 0: a new one. `is_complete`: no host lacks a file.
     """
     reports = await fleet.reports()
     raise_failures(fleet)
     changes = all_changes(described, reports)
     current = max((int(r.current) for r in reports.values() if r.current.isdecimal()), default=0)
-    if not changes and (not version or version == current):
+    if not changes and is_complete and (not version or version == current):
         return RolloutResult(current, [])
     await copy(fleet)
     raise_failures(fleet)
     if not version:
+        # A start of what is deployed already is no new version.
+        is_new = any(each.written or each.removed for each in changes)
         stored = (number for host in reports.values() for number in host.versions)
-        version = max(stored, default=0) + 1
+        version = max(stored, default=0) + 1 if is_new else current
         described = {
             host: manifest.numbered(version, time.time(), describe_author())
             for host, manifest in described.items()
@@ -196,23 +201,43 @@ async def _start(
     fleet: Fleet, described: Mapping[str, HostManifest], result: RolloutResult, report: Report
 ) -> None:
     components = {c.name: c for manifest in described.values() for c in manifest.components}
-    wanted = {
+    verbs = {
         change.component: change.verb
         for each in result.changes
         for change in each.components
-        if change.verb != STOP
+        if change.verb in (START, RESTART)
     }
     runner = UnitRunner(fleet.agents, components, report)
-    await start_helpers(fleet, described)
+    await start_helpers(fleet, described, result.changes)
+    await _reload(fleet, described, result.changes, report)
     await runner.watch()
-    ordered = [name for name in components if name in wanted]
-    await runner.start(ordered, {name for name, verb in wanted.items() if verb == RESTART})
+    ordered = [name for name in components if name in verbs]
+    await runner.start(ordered, {name for name, verb in verbs.items() if verb == RESTART})
     result.failed.update(runner.failed)
     await enable(fleet, described)
 
 
-async def start_helpers(fleet: Fleet, described: Mapping[str, HostManifest]) -> None:
-    """Start the units that are no components, such as the timer of the logs and the router."""
+async def _reload(
+    fleet: Fleet,
+    described: Mapping[str, HostManifest],
+    changes: Iterable[HostChanges],
+    report: Report,
+) -> None:
+    """Let routers read their settings again, before components need them."""
+    for each in changes:
+        deployed = described[each.host].components if each.host in described else ()
+        units = {component.name: component.unit for component in deployed}
+        for change in each.components:
+            if change.verb == RELOAD:
+                await fleet.agents[each.host].systemctl("reload", [units[change.component]])
+                report(f"{change.component} ({each.host}): reloaded")
+
+
+async def start_helpers(
+    fleet: Fleet, described: Mapping[str, HostManifest], changes: Iterable[HostChanges] = ()
+) -> None:
+    """Start the units that are no components, such as the timer of the logs."""
+    written = {each.host: each.written for each in changes}
 
     async def start(agent: HostAgent) -> None:
         if manifest := described.get(agent.host.name):
@@ -220,7 +245,9 @@ async def start_helpers(fleet: Fleet, described: Mapping[str, HostManifest]) -> 
             target = names.target_name(manifest.deployment)
             once = names.log_trim_name(manifest.deployment, "service")
             helpers = [u for u in manifest.units if u not in own and u not in (target, once)]
-            await agent.systemctl("start", helpers)
+            again = [unit for unit in helpers if unit in written.get(agent.host.name, ())]
+            await agent.systemctl("restart", again)
+            await agent.systemctl("start", [unit for unit in helpers if unit not in again])
 
     await fleet.each(start)
     raise_failures(fleet)

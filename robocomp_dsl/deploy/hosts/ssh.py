@@ -20,6 +20,7 @@ from robocomp_dsl.deploy.hosts.commands import (
     CommandResult,
     Upload,
 )
+from robocomp_dsl.deploy.hosts.error_tail import ErrorTail
 from robocomp_dsl.deploy.hosts.errors import (
     HostError,
     HostRefused,
@@ -53,6 +54,7 @@ class SshProcess:
     def __init__(self, process: asyncssh.SSHClientProcess[bytes], owner: SshConnection) -> None:
         self._process = process
         self._owner = owner
+        self._errors = ErrorTail(process.stderr.read)
 
     async def write(self, data: bytes) -> None:
         """Write to its standard input."""
@@ -64,17 +66,32 @@ class SshProcess:
 
     async def readline(self) -> bytes:
         """The next line of its standard output; empty at its end."""
+        parts: list[bytes] = []
         try:
-            line = await self._process.stdout.readline()
+            # asyncssh returns a part of a line that is longer than its buffer.
+            while part := await self._process.stdout.readline():
+                parts.append(part)
+                if part.endswith(b"\n"):
+                    break
         except (OSError, asyncssh.Error) as error:
             raise self._owner.describe_loss(error) from None
-        if not line:
+        if not parts:
             self._owner.check_open()
-        return line
+        return b"".join(parts)
 
     async def close(self) -> CommandResult:
         """Close its input, and wait for its end."""
-        return await self._owner.wait_for(self._process)
+        try:
+            self._process.stdin.write_eof()
+            stdout = await self._process.stdout.read()
+            stderr = await self._errors.finish()
+            await self._process.wait_closed()
+        except (OSError, asyncssh.Error) as error:
+            raise self._owner.describe_loss(error) from None
+        finally:
+            self._errors.cancel()
+            self._process.close()
+        return CommandResult(self._owner.exit_code(self._process), stdout, stderr)
 
 
 class SshConnection:
@@ -138,11 +155,14 @@ class SshConnection:
             stdout, stderr = await process.communicate()
         except (OSError, asyncssh.Error) as error:
             raise self.describe_loss(error) from None
+        return CommandResult(self.exit_code(process), stdout or b"", stderr or b"")
+
+    def exit_code(self, process: asyncssh.SSHClientProcess[bytes]) -> int:
+        """How a command ended; raises `HostUnreachable` if that is not known."""
         if process.returncode is None:
             self.check_open()
             raise HostUnreachable(f"{describe_host(self.host)}: the command ended without a result")
-        code = process.returncode if process.returncode >= 0 else 128 - process.returncode
-        return CommandResult(code, stdout or b"", stderr or b"")
+        return process.returncode if process.returncode >= 0 else 128 - process.returncode
 
     async def _create(
         self, command: Sequence[str], stderr: int = asyncssh.PIPE

@@ -52,6 +52,11 @@ class HostKeyCheck(asyncssh.SSHClient):
         self.known = known_hosts.find_keys(host, address, port or known_hosts.DEFAULT_PORT)
         return known_hosts.asyncssh_keys(self.known)
 
+    @property
+    def has_seen_no_key(self) -> bool:
+        """Whether the host may have no key of the kind of the confirmed keys."""
+        return bool(self.known) and self.presented is None
+
     def validate_host_public_key(self, *server: Any) -> bool:
         """Refuse a key that is not confirmed: the last of `host`, `address`, `port` and `key`."""
         self.presented = server[-1]
@@ -64,25 +69,37 @@ class HostKeyCheck(asyncssh.SSHClient):
 
 async def open_connection(host: Host, check: HostKeyCheck) -> asyncssh.SSHClientConnection:
     """Connect and log in. Raises `HostUnreachable` or `HostRefused`."""
-    options: dict[str, Any] = {"port": host.ssh_port} if host.ssh_port else {}
-    if host.user:
-        options["username"] = host.user
     try:
-        return await asyncssh.connect(
-            host.address,
-            client_factory=lambda: check,
-            known_hosts=check.lookup,
-            x509_trusted_certs=None,
-            password_auth=False,
-            kbdint_auth=False,
-            ignore_encrypted=True,
-            keepalive_interval=KEEPALIVE_S,
-            keepalive_count_max=KEEPALIVE_COUNT,
-            connect_timeout=CONNECT_TIMEOUT_S,
-            **options,
-        )
+        try:
+            return await _connect(host, check)
+        except (ConnectionError, asyncssh.ConnectionLost, asyncssh.KeyExchangeFailed):
+            if not check.has_seen_no_key:
+                raise
+        # Only kinds of confirmed keys were accepted; now the host shows another, which is refused.
+        return await _connect(host, check, server_host_key_algs="default")
     except (OSError, ValueError, asyncssh.Error) as error:
         raise describe_error(host, check, error) from None
+
+
+async def _connect(host: Host, check: HostKeyCheck, **options: Any) -> asyncssh.SSHClientConnection:
+    if host.ssh_port:
+        options["port"] = host.ssh_port
+    if host.user:
+        options["username"] = host.user
+    return await asyncssh.connect(
+        host.address,
+        client_factory=lambda: check,
+        known_hosts=check.lookup,
+        x509_trusted_certs=None,
+        password_auth=False,
+        kbdint_auth=False,
+        gss_kex=False,  # it proves the host by Kerberos instead of its key
+        ignore_encrypted=True,
+        keepalive_interval=KEEPALIVE_S,
+        keepalive_count_max=KEEPALIVE_COUNT,
+        connect_timeout=CONNECT_TIMEOUT_S,
+        **options,
+    )
 
 
 def describe_error(host: Host, check: HostKeyCheck, error: Exception) -> HostError:
@@ -96,10 +113,11 @@ def describe_error(host: Host, check: HostKeyCheck, error: Exception) -> HostErr
         case TimeoutError():
             text = f"{name}: no answer within {CONNECT_TIMEOUT_S:g} s"
             described = HostUnreachable(text, _reachability_help(host))
-        case asyncssh.ConnectionLost():
-            text = f"{name}: the connection was lost"
-            described = HostUnreachable(text, _reachability_help(host))
-        case asyncssh.ProtocolError():
+        case asyncssh.ConnectionLost() | ConnectionResetError() | BrokenPipeError():
+            text = f"{name}: the connection was closed before the login"
+            remedy = "check the port of the address, and the log of the server: `journalctl -u ssh`"
+            described = HostUnreachable(text, remedy)
+        case asyncssh.ProtocolError() | asyncssh.ProtocolNotSupported():
             text = f"{name}: what answers at the address is no SSH server ({error.reason})"
             described = HostUnreachable(text, "check the port of the address")
         case asyncssh.ConfigParseError():

@@ -49,8 +49,9 @@ class UnitRunner:
             await agent.watch(list(units), partial(self._on_state, units))
 
     def _on_state(self, units: Mapping[str, str], unit: str, state: UnitState) -> None:
-        if state.operations >= self._operations.get(unit, 0) and unit in units:
-            self._states[units[unit]] = state
+        name = units.get(unit, "")
+        if name and state.operations >= self._operations.get(name, 0):
+            self._states[name] = state
             self._notify()
 
     def _on_lost(self, host: str, error: HostError) -> None:
@@ -143,10 +144,10 @@ class UnitRunner:
         return state.note or state.state
 
     async def _operate(self, agent: HostAgent, verb: str, component: HostedComponent) -> None:
-        unit = component.unit
-        self._operations[unit] = self._operations.get(unit, 0) + 1
-        self._states.pop(component.name, None)
-        await agent.systemctl(verb, [unit])
+        name = component.name
+        self._operations[name] = self._operations.get(name, 0) + 1
+        self._states.pop(name, None)
+        await agent.systemctl(verb, [component.unit])
 
     async def _settled(
         self,

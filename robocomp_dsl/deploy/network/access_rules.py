@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 from robocomp_dsl.deploy.network.identities import (
     OPERATOR,
     common_name,
+    process_names,
     router_name,
     used_hosts,
 )
@@ -23,7 +24,7 @@ from robocomp_dsl.deploy.network.port_uses import PortUse, Rewiring, Verb, port_
 from robocomp_dsl.model.deployment import Deployment
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.runtime.component.naming import ANY
-from robocomp_dsl.runtime.presence.keys import domain_prefix, escape_chunk
+from robocomp_dsl.runtime.presence.keys import ROUTER_KEY, domain_prefix, escape_chunk
 
 IN, OUT = "ingress", "egress"
 PUT, QUERY, REPLY = "put", "query", "reply"
@@ -50,7 +51,10 @@ class Grant(NamedTuple):
 
 
 class ComponentAccess(ValueRecord):
-    """What one component may do; `name` is the common name of its certificate."""
+    """What one component, or the components of one process, may do.
+
+    `name` is the common name of its certificate.
+    """
 
     name: str
     uses: tuple[PortUse, ...]
@@ -87,14 +91,25 @@ def access_rules(
     deployment: Deployment, domain: str, rewirings: Iterable[Rewiring] = ()
 ) -> AccessRules:
     """The rules of a deployment in `domain`; `rewirings` are added to its connections."""
-    components = tuple(
-        ComponentAccess(
-            common_name(name), uses, tuple(dict.fromkeys(_Keys(domain, name).grants(uses)))
-        )
-        for name, uses in port_uses(deployment, rewirings).items()
-    )
+    processes = process_names(deployment)
+    members: dict[str, list[tuple[str, tuple[PortUse, ...]]]] = {}
+    for name, uses in port_uses(deployment, rewirings).items():
+        members.setdefault(common_name(processes[name]), []).append((name, uses))
+    components = tuple(_access(domain, name, parts) for name, parts in members.items())
     routers = (router_name(host) for host in used_hosts(deployment))
     return AccessRules(domain, components, (OPERATOR, *routers))
+
+
+def _access(
+    domain: str, name: str, members: Iterable[tuple[str, tuple[PortUse, ...]]]
+) -> ComponentAccess:
+    """What the members of a process may do together."""
+    uses: dict[PortUse, None] = {}
+    grants: dict[Grant, None] = {}
+    for member, own in members:
+        uses |= dict.fromkeys(own)
+        grants |= dict.fromkeys(_Keys(domain, member).grants(own))
+    return ComponentAccess(name, tuple(uses), tuple(grants))
 
 
 def _rule(
@@ -143,9 +158,15 @@ class _Keys:
 
     def _presence(self) -> Iterator[Grant]:
         """Every component knows the ports of all, and makes its own state known."""
-        for kind in ("p", "a"):
-            yield Grant(IN, WATCH_TOKENS, f"{self._root}/{kind}/**")
-            yield Grant(OUT, TOKEN, f"{self._root}/{kind}/**")
+        for key in (f"{self._root}/p/**", f"{self._root}/a/**", f"{ROUTER_KEY}/*"):
+            yield Grant(IN, WATCH_TOKENS, key)
+            yield Grant(OUT, TOKEN, key)
+        # Who serves and subscribes is known anyway. A program that did not know would send nothing,
+        # and its attempt would not be in the log of the router.
+        for kind in ("q", "n", "l", "h"):
+            yield Grant(OUT, SERVE, f"{self._root}/{kind}/**")
+        for kind in ("t", "c"):
+            yield Grant(OUT, SUBSCRIBE, f"{self._root}/{kind}/**")
         yield Grant(IN, ASK_TOKENS, f"{self._root}/p/server/**")
         yield Grant(IN, TOKEN, f"{self._root}/s/{self._component}/*/*")
 
@@ -175,7 +196,6 @@ class _Keys:
         for each in asked or (key,):
             yield Grant(IN, QUERY, each)
         yield Grant(OUT, REPLY, key)
-        yield Grant(OUT, SERVE, key)
 
     def _serving(self, use: PortUse) -> Iterator[Grant]:
         if use.queries and use.on_house:
@@ -189,13 +209,10 @@ class _Keys:
             yield from self._asking(self._peer("q", use))
         if use.commands and use.on_house:
             yield Grant(IN, PUT, self._peer("c", use))
-            yield Grant(OUT, SUBSCRIBE, self._peer("c", use))
 
     def _publishing(self, use: PortUse) -> Iterator[Grant]:
         if use.on_house:
             yield Grant(IN, PUT, self._own("t", use))
-            # A subscription may be to all publishers of the interface.
-            yield Grant(OUT, SUBSCRIBE, f"{self._root}/t/{escape_chunk(use.interface)}/**")
         yield Grant(IN, TOKEN, f"{self._root}/a/{self._component}/{escape_chunk(use.port)}/*/*")
         yield from self._answering(self._own("n", use), f"{self._root}/n/**")
         yield from self._answering(self._own("l", use))

@@ -77,13 +77,23 @@ def router_port(deployment: str, host: Host) -> int:
     return host.port or _FIRST_PORT + int.from_bytes(digest[:4]) % _PORTS
 
 
-def identities(deployment: Deployment) -> tuple[Identity, ...]:
-    """All who need a certificate, components first."""
-    components = (
-        Identity(common_name(instance.full_name), "component")
+def process_names(deployment: Deployment) -> dict[str, str]:
+    """The process of each component, by full names: itself, or a group with `inprocess`.
+
+    A process has one certificate.
+    """
+    groups = {group.name: group.full_name for group in deployment.groups if group.inprocess}
+    return {
+        instance.full_name: groups.get(instance.process, instance.full_name)
         for instance in deployment.instances
         if not instance.is_program
-    )
+    }
+
+
+def identities(deployment: Deployment) -> tuple[Identity, ...]:
+    """All who need a certificate, components first."""
+    processes = dict.fromkeys(process_names(deployment).values())
+    components = (Identity(common_name(name), "component") for name in processes)
     routers = (
         Identity(router_name(host), "router", router_addresses(host))
         for host in used_hosts(deployment)

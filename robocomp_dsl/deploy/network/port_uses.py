@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from enum import StrEnum
 
 from robocomp_dsl.model.component import Port, Role
+from robocomp_dsl.model.connection_index import ConnectionIndex
 from robocomp_dsl.model.deployment import Connection, Deployment, External, Instance
 from robocomp_dsl.model.interface import Pattern
 from robocomp_dsl.model.port_middlewares import port_middlewares
@@ -76,11 +77,12 @@ def port_uses(
 ) -> dict[str, tuple[PortUse, ...]]:
     """The uses of each component, by full name; `rewirings` are added to the connections."""
     added = tuple(rewirings)
+    index = ConnectionIndex(deployment.connections)
     return {
         instance.full_name: tuple(
             dict.fromkeys(
                 (
-                    *_declared(deployment, instance, added),
+                    *_declared(deployment, instance, index.at(instance), added),
                     *_clock(deployment, instance),
                     *_runtime(),
                 )
@@ -123,36 +125,38 @@ def _clock(deployment: Deployment, instance: Instance) -> Iterator[PortUse]:
 
 
 def _declared(
-    deployment: Deployment, instance: Instance, rewirings: Sequence[Rewiring]
+    deployment: Deployment,
+    instance: Instance,
+    connections: Sequence[Connection],
+    rewirings: Sequence[Rewiring],
 ) -> Iterator[PortUse]:
     """The uses of the ports of the CDSL file."""
     for port in instance.component.ports:
-        uses = _PortUses(deployment, instance, port, rewirings)
+        uses = _PortUses(deployment, instance, port, connections, rewirings)
         yield from uses.plain()
         if deployment.clock.lockstep and port.interface.qualified != CLOCK:
             yield from uses.timed()
 
 
 class _PortUses:
-    """The uses of one port."""
+    """The uses of one port of `instance`, which has the `connections`."""
 
     def __init__(
         self,
         deployment: Deployment,
         instance: Instance,
         port: Port,
+        connections: Sequence[Connection],
         rewirings: Sequence[Rewiring],
     ) -> None:
-        self._deployment = deployment
         self._instance = instance
         self._port = port
+        self._own_connections = connections
         self._rewirings = rewirings
         patterns = {port.pattern(operation) for operation in port.interface.operations}
         self._queries = bool(patterns - {Pattern.COMMAND})
         self._commands = Pattern.COMMAND in patterns
-        middlewares = port_middlewares(
-            instance, port, deployment.connections, deployment.middleware
-        )
+        middlewares = port_middlewares(instance, port, connections, deployment.middleware)
         self._on_house = HOUSE in middlewares or port.interface.qualified == CLOCK
 
     def plain(self) -> Iterator[PortUse]:
@@ -216,7 +220,7 @@ class _PortUses:
 
     def _all_connections(self) -> Iterator[tuple[Instance, Port, Connection]]:
         """The other end of each connection of this port, and the connection."""
-        for connection in self._deployment.connections:
+        for connection in self._own_connections:
             source = (connection.source, connection.source_port)
             target = (connection.target, connection.target_port)
             for (own, own_port), (peer, peer_port) in ((source, target), (target, source)):

@@ -12,6 +12,7 @@ from robocomp_dsl.deploy.network.access_rules import AccessRules
 from robocomp_dsl.deploy.network.identities import (
     LOOPBACK,
     common_name,
+    process_names,
     router_name,
     router_port,
     used_hosts,
@@ -44,9 +45,10 @@ def router_settings(deployment: Deployment, host: Host, rules: AccessRules) -> s
 
 
 def component_settings(deployment: Deployment, instance: Instance) -> str:
-    """The content of the file for `ROBOCOMP_NETWORK` of a component."""
+    """The content of the file for `ROBOCOMP_NETWORK` of the process of a component."""
     endpoint = _endpoint(deployment.name, instance.host, LOOPBACK)
-    data = {"endpoints": [endpoint], **_files(common_name(instance.full_name))}
+    name = process_names(deployment)[instance.full_name]
+    data = {"endpoints": [endpoint], **_files(common_name(name))}
     return f"{json.dumps(data, indent=1)}\n"
 
 

@@ -34,8 +34,9 @@ def one_host_sets(deployment: Deployment, known: KnownMiddlewares) -> list[list[
 def _bonds(deployment: Deployment, known: KnownMiddlewares) -> Iterator[tuple[str, str]]:
     units: dict[str, str] = {}
     for instance in deployment.instances:
-        if instance.placement.unit:
-            yield units.setdefault(instance.placement.unit, instance.name), instance.name
+        for unit in (instance.placement.unit, instance.process):
+            if unit:
+                yield units.setdefault(unit, instance.name), instance.name
     for connection in deployment.connections:
         ends = (connection.source, connection.target)
         if any(isinstance(end, External) for end in ends) or ends[0] is ends[1]:

@@ -86,7 +86,10 @@ class _Placer:
         self._hosts = _hosts_by_name(deployment)
         self._order = {name: i for i, name in enumerate(self._hosts)}
         self._loads = loads
-        self._running = running
+        self._running = {
+            name: self._hosts[host].machine if host in self._hosts else host
+            for name, host in running.items()
+        }
         self._sets = one_host_sets(deployment, known)
         self._components: Counter[str] = Counter()
         self._starting: Counter[str] = Counter()
@@ -132,10 +135,10 @@ class _Placer:
     def _keep_running(self, unplaced: Sequence[Instance], candidates: Sequence[Host]) -> bool:
         """Place instances where they run, or where most of them run; whether any of them runs."""
         where = Counter(self._running.get(instance.name) for instance in unplaced)
-        running = [host for host in candidates if where[host.name]]
+        running = [host for host in candidates if where[host.machine]]
         if not running:
             return False
-        host = max(running, key=lambda host: where[host.name])
+        host = max(running, key=lambda host: where[host.machine])
         scores = [CandidateScore(h.name, self._components[h.machine]) for h in candidates]
         self._assign(unplaced, host, "runs there", scores)
         return True
@@ -161,7 +164,7 @@ class _Placer:
     def _score(self, host: Host) -> CandidateScore:
         load = self._loads.get(host.name)
         if load is None and host.is_local:
-            load = local_load()
+            load = self._loads.get(THIS_MACHINE) or local_load()
         components = self._components[host.machine]
         if load is None:
             return CandidateScore(host.name, components)

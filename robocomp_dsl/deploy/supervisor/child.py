@@ -19,7 +19,7 @@ from robocomp_dsl.deploy.logs import LineSplitter, LogRecord
 from robocomp_dsl.deploy.plan import Process
 from robocomp_dsl.deploy.supervisor.hang_watch import HangWatch
 from robocomp_dsl.deploy.supervisor.process_start import StartedProcess
-from robocomp_dsl.deploy.supervisor.resource_usage import ResourceUsage
+from robocomp_dsl.host_tools.resource_usage import ResourceUsage
 
 _CHUNK = 64 * 1024
 

@@ -15,7 +15,7 @@ from robocomp_dsl.deploy.plan import Process
 from robocomp_dsl.deploy.supervisor.child import ChildProcess
 from robocomp_dsl.deploy.supervisor.notify import WATCHDOG_VARIABLE, watchdog_seconds
 from robocomp_dsl.deploy.supervisor.readiness_probe import ReadinessProbe
-from robocomp_dsl.deploy.supervisor.resource_limits import SAMPLE_S, LimitTracker, TreeUsage
+from robocomp_dsl.host_tools.resource_limits import SAMPLE_S, LimitTracker, TreeUsage
 from robocomp_dsl.model.deployment import Readiness, ResourceLimits
 
 MAX_STATUS_CHARS = 200

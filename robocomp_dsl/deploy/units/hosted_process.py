@@ -18,8 +18,8 @@ class HostedProcess:
 
     `process` has the host's paths, too; `host` is its name in the description, `root` the folder of
     the deployment. `python` runs the helpers of the unit. `network` is the file with the network
-    settings, "" without; `certificate` is the fingerprint of the component's certificate. `tree`
-    and `environment` identify what was copied.
+    settings, "" without; `certificate` identifies its content and the component's certificate.
+    `tree` and `environment` identify what was copied.
     """
 
     process: Process

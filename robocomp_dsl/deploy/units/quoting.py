@@ -11,6 +11,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 _SAFE = re.compile(r"[A-Za-z0-9_@%+=:,./-]+")
+_UNESCAPED = re.compile(r"[A-Za-z0-9_@+=:,./ -]*")
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
 _ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t", "%": "%%"}
 _ENVIRONMENT_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _PATH_CHARACTER = r"[A-Za-z0-9_.\-]"
@@ -59,11 +61,10 @@ def assignment(name: str, value: str, paths: PathMap = NO_PATHS) -> str:
     """`NAME=VALUE` for `Environment=`. Raises `UnitValueError`."""
     if not _ENVIRONMENT_NAME.fullmatch(name):
         raise UnitValueError(f"`{name}` is not a name of an environment variable")
-    for character in value:
-        if (ord(character) < 0x20 and character not in "\t\n") or character == "\x7f":
-            raise UnitValueError(
-                f"the value of `{name}` contains the control character U+{ord(character):04X}"
-            )
+    if control := _CONTROL.search(value):
+        raise UnitValueError(
+            f"the value of `{name}` contains the control character U+{ord(control[0]):04X}"
+        )
     return _word(f"{name}={value}", paths, variables=False)
 
 
@@ -84,6 +85,8 @@ def _word(text: str, paths: PathMap, *, variables: bool) -> str:
 
 
 def _escape(text: str, *, variables: bool) -> str:
+    if _UNESCAPED.fullmatch(text):
+        return text
     return "".join(_escape_character(character, variables=variables) for character in text)
 
 

@@ -26,9 +26,17 @@ MIN_MARGIN_S = 0.5
 """systemd waits so much longer than the watchdog of the component, which reports the stack."""
 _MARK = '+{"time": %s.%N, "level": "INFO", "message": "'
 """A log line as a format of date(1). It dates the lines of programs, which have no time."""
-_END_TEXT = "ended: ${EXIT_CODE} ${EXIT_STATUS} (${SERVICE_RESULT})"
+END_TEXT = "ended: ${EXIT_CODE} ${EXIT_STATUS} (${SERVICE_RESULT})"
 """systemd.exec(5) sets the variables."""
-READINESS = "robocomp_dsl.deploy.units.wait_until_ready"
+READINESS = "robocomp_dsl.host_tools.wait_until_ready"
+_WITHOUT_RESTART = frozenset(
+    {
+        "ExecReload", "ExecStartPost", "ExecStartPre", "ExecStopPost", "KillMode", "Restart",
+        "RestartSec", "RestartForceExitStatus", "SuccessExitStatus", "TimeoutStartSec",
+        "TimeoutStopSec",
+    }
+)  # fmt: skip
+"""Settings that systemd takes over while the process runs, as those of the order."""
 _WATCHDOG_VARIABLE = "WATCHDOG_USEC"
 _CLEAN_SIGNALS = "SIGHUP SIGINT SIGTERM SIGPIPE"
 """Ends that are a success for systemd, and a failure for rcdeploy unless it stops the process."""
@@ -57,16 +65,28 @@ def service_unit(hosted: HostedProcess, deployment: str, on_host: frozenset[str]
         f"StandardOutput=append:{log}",
         f"StandardError=append:{log}",
     ]
-    identity = ["[X-RoboComp]", *_identity(hosted)]
-    # The process itself does not depend on the order of the start, nor on how often it may start.
-    revision = hashlib.sha256("\n".join([*service, *identity]).encode()).hexdigest()[:16]
-    service.append(f"Environment={REVISION_VARIABLE}={revision}")
+    return join_sections(head, service, ["[X-RoboComp]", *_identity(hosted)])
+
+
+def join_sections(head: list[str], service: list[str], identity: list[str]) -> str:
+    """The text of a service, with its revision in the environment of the process."""
+    lasting = [line for line in service if line.partition("=")[0] not in _WITHOUT_RESTART]
+    revision = hashlib.sha256("\n".join([*lasting, *identity]).encode()).hexdigest()[:16]
+    service = [*service, f"Environment={REVISION_VARIABLE}={revision}"]
     return "\n".join([*head, "", *service, "", *identity]) + "\n"
 
 
 def find_revision(text: str) -> str:
     """The revision in the text of a unit, "" if it has none."""
-    key = f"Environment={REVISION_VARIABLE}="
+    return _find(text, f"Environment={REVISION_VARIABLE}=")
+
+
+def find_settings(text: str) -> str:
+    """What identifies the settings in the text of a router's unit, "" for other units."""
+    return _find(text, "Settings=")
+
+
+def _find(text: str, key: str) -> str:
     return next((line[len(key) :] for line in text.splitlines() if line.startswith(key)), "")
 
 
@@ -95,7 +115,7 @@ def _start(hosted: HostedProcess, log: str) -> Iterator[str]:
     yield f"Type={'notify' if sends_ready else 'exec'}"
     yield "NotifyAccess=all"
     yield f"WorkingDirectory={path(str(process.cwd), HOST_PATHS)}"
-    yield f"ExecStartPre={_mark('starting')}"
+    yield f"ExecStartPre={log_mark('starting')}"
     yield f"ExecStart={_words(_command(process))}"
     if not sends_ready:
         yield f"ExecStartPost={_readiness(hosted, log)}"
@@ -107,7 +127,7 @@ def _start(hosted: HostedProcess, log: str) -> Iterator[str]:
         yield "WatchdogSignal=SIGTERM"
 
 
-def _mark(text: str) -> str:
+def log_mark(text: str) -> str:
     """The command that logs `text`, in which systemd replaces variables."""
     quoted = argument(_MARK).removesuffix('"')
     return f'/usr/bin/env date {quoted}{text}\\"}}"'
@@ -147,7 +167,7 @@ def _end(process: Process) -> Iterator[str]:
     yield "KillMode=control-group"
     yield f"TimeoutStopSec={GRACE_S:g}"
     yield "SuccessExitStatus=143"
-    yield f"ExecStopPost={_mark(_END_TEXT)}"
+    yield f"ExecStopPost={log_mark(END_TEXT)}"
 
 
 def _environment(hosted: HostedProcess) -> Iterator[str]:

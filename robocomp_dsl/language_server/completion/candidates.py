@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
 from lsprotocol import types as lsp
 
 from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.diagnostics import Fix
 from robocomp_dsl.language_server.symbols.symbol import Symbol
+from robocomp_dsl.language_server.symbols.symbols_pdsl import parameter_symbol
+from robocomp_dsl.model.parameter import Parameter
+from robocomp_dsl.syntax.grammar.lexer import Token
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,3 +43,20 @@ def middleware_candidates(middlewares: KnownMiddlewares) -> Iterator[CompletionC
         description = middlewares.describe(name)
         summary = description.summary if description else ""
         yield CompletionCandidate(name, lsp.CompletionItemKind.Value, summary)
+
+
+def parameter_candidates(
+    parameters: Sequence[Parameter], key: Sequence[Token]
+) -> Iterator[CompletionCandidate]:
+    """The parameters that may continue a dotted key."""
+    container = ""
+    for part in takewhile(lambda token: token.kind != "EQUAL", key):
+        if part.kind == "ID":
+            group = next((p for p in parameters if p.name == part.text), None)
+            if group is None:
+                return
+            parameters, container = group.members, group.name
+    kind = lsp.CompletionItemKind.Property
+    for parameter in parameters:
+        symbol = parameter_symbol(parameter, container)
+        yield CompletionCandidate(parameter.name, kind, parameter.kind.value, symbol)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import takewhile
 
 from lsprotocol import types as lsp
 
@@ -13,20 +12,22 @@ from robocomp_dsl.check.ddsl.connections import SOURCES, TARGETS
 from robocomp_dsl.check.ddsl.qos import PRIORITIES
 from robocomp_dsl.check.passes import check_cdsl
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.language_server.completion import complete_connections, complete_devices
+from robocomp_dsl.language_server.completion import (
+    complete_connections,
+    complete_devices,
+    complete_groups,
+)
 from robocomp_dsl.language_server.completion.candidates import (
     CompletionCandidate,
     middleware_candidates,
+    parameter_candidates,
     value_candidates,
 )
 from robocomp_dsl.language_server.completion.context import CompletionContext
 from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.language_server.symbols.symbols_cdsl import component_symbol, port_symbol
-from robocomp_dsl.language_server.symbols.symbols_pdsl import parameter_symbol
 from robocomp_dsl.model.component import Component, Role
-from robocomp_dsl.model.parameter import Parameter
 from robocomp_dsl.syntax.ast import ddsl as ast
-from robocomp_dsl.syntax.grammar.lexer import Token
 
 POLICIES = ("on-failure", "always", "never")
 
@@ -75,6 +76,8 @@ def candidates(session: Session, context: CompletionContext) -> Iterator[Complet
         yield from complete_devices.candidates(context, all_instances)
     elif context.previous_kind in ("MIDDLEWARE", "OVER"):
         yield from middleware_candidates(session.workspace.middlewares)
+    elif complete_groups.in_group(context):
+        yield from complete_groups.candidates(session, context, files)
     elif first in _CONNECTION_STATEMENTS:
         yield from _in_connection(names, first)
     else:
@@ -95,12 +98,14 @@ def _in_connection(names: _DdslNames, first: str) -> Iterator[CompletionCandidat
         name = context.statement[-2].text
         if name in externals:
             yield from value_candidates(externals[name].interface.name.text)
+        yield from complete_groups.exports(names.session, names.files, name)
         targets = first == "ARBITRATE" or any(t.kind == "__ANON_0" for t in context.statement)
         yield from _ports(names.component_of(name), TARGETS if targets else SOURCES)
     elif last in ("CONNECT", "__ANON_0", "FROM", "ARBITRATE"):
         kind = lsp.CompletionItemKind.Variable
         for name, component in names.instances.items():
             yield CompletionCandidate(name, kind, f": {component}")
+        yield from complete_groups.group_names(names.files)
         for name, external in externals.items() if first in ("CONNECT", "FROM") else ():
             yield CompletionCandidate(name, kind, f"over {external.over.text}")
 
@@ -120,7 +125,7 @@ def _in_setting(
     elif first == "SET" and all(token.kind != "EQUAL" for token in context.statement):
         component = names.component_of_block()
         if component and component.parameters:
-            yield from _parameters(component.parameters.parameters, context.statement[1:])
+            yield from parameter_candidates(component.parameters.parameters, context.statement[1:])
     elif last == "FROM" or (first == "AFTER" and last in ("AFTER", "COMMA")):
         kind = lsp.CompletionItemKind.Variable
         for name, of in names.instances.items():
@@ -141,7 +146,8 @@ _KEYWORD_VALUES = {"RESTART": POLICIES, "PRIORITY": PRIORITIES}
 def _all_instances(files: Sequence[ast.File]) -> Iterator[ast.Instance]:
     """The instances of all trees, the oldest tree first, so that newer instances override."""
     for file in reversed(files):
-        todo: list[ast.Deployment | ast.Group] = [file.deployment] if file.deployment else []
+        todo: list[ast.Deployment | ast.Group] = [*file.groups]
+        todo += [file.deployment] if file.deployment else []
         while todo:
             block = todo.pop()
             yield from block.instances
@@ -168,20 +174,3 @@ def _ports(component: Component | None, roles: Sequence[object]) -> Iterator[Com
             kind = lsp.CompletionItemKind.Property
             detail = f"{port.role} {port.interface.qualified}"
             yield CompletionCandidate(port.name, kind, detail, port_symbol(port, component))
-
-
-def _parameters(
-    parameters: Sequence[Parameter], key: Sequence[Token]
-) -> Iterator[CompletionCandidate]:
-    """The parameters that may continue a dotted key."""
-    container = ""
-    for part in takewhile(lambda token: token.kind != "EQUAL", key):
-        if part.kind == "ID":
-            group = next((p for p in parameters if p.name == part.text), None)
-            if group is None:
-                return
-            parameters, container = group.members, group.name
-    kind = lsp.CompletionItemKind.Property
-    for parameter in parameters:
-        symbol = parameter_symbol(parameter, container)
-        yield CompletionCandidate(parameter.name, kind, parameter.kind.value, symbol)

@@ -19,6 +19,7 @@ SUFFIXES = {
     "CONFIG": (".yaml", ".yml", ".toml"),
 }
 """Keyword before the string to the suffixes of the files that it accepts."""
+IMPORTED_BY_DDSL = (".cdsl", ".ddsl")
 
 
 def candidates(session: Session, context: CompletionContext) -> Iterator[CompletionCandidate]:
@@ -45,9 +46,10 @@ def _imports(session: Session, context: CompletionContext) -> Iterator[str]:
             if not (is_component and declares_types_only(name)):
                 yield name
         return
-    yield from _files_in_folder(session, context, (".cdsl",))
+    others = _files_in_folder(session, context, IMPORTED_BY_DDSL)
+    yield from (name for name in others if name != context.path.name)
     for path in session.known_files():
-        if path.suffix.lower() == ".cdsl":
+        if path.suffix.lower() in IMPORTED_BY_DDSL and path != context.path:
             yield os.path.relpath(path, context.path.parent).replace(os.sep, "/")
 
 

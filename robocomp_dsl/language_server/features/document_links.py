@@ -71,11 +71,12 @@ def _relative_paths(tree: object) -> Iterator[Text]:
                 yield component.parameters
             if component.statemachine:
                 yield component.statemachine.path
-        case ddsl.File(deployment=ddsl.Deployment() as deployment):
+        case ddsl.File():
             yield from (statement.path for statement in tree.imports)
-            yield from (i.config for i in deployment.instances if i.config)
-            blocks: list[ddsl.Deployment | ddsl.Group] = [deployment]
+            blocks: list[ddsl.Deployment | ddsl.Group] = [*tree.groups]
+            blocks += [tree.deployment] if tree.deployment else []
             while blocks:
                 block = blocks.pop()
                 blocks.extend(block.groups)
+                yield from (i.config for i in block.instances if i.config)
                 yield from (m.file for wire in block.connections for m in wire.monitors)

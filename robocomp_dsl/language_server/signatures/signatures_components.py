@@ -11,6 +11,7 @@ from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.deployment import Connection, Deployment, External, Host, Instance
 from robocomp_dsl.model.parameter import Kind, Parameter, ParameterSet
 from robocomp_dsl.model.placement import LabelledHosts
+from robocomp_dsl.syntax.ast import ddsl as ast
 
 
 def format_parameter(parameter: Parameter) -> str:
@@ -108,6 +109,22 @@ def _label(label: LabelledHosts) -> str:
     return f"label {label.label}    // of {', '.join(label.hosts)}"
 
 
+def _group(group: ast.Group) -> str:
+    """The head of a group, its components and exports."""
+    kind = f" : {group.definition.text}" if group.definition else ""
+    lines = [f"group {group.name.text}{kind}"]
+    lines += ["    inprocess;"] if group.inprocess else []
+    for instance in group.instances:
+        of = f" : {instance.component.text}" if instance.component else ""
+        lines.append(f"    component {instance.name.text}{of};")
+    lines += [f"    group {inner.name.text};" for inner in group.groups]
+    for export in group.exports:
+        alias = "" if export.port is export.target.port else f" as {export.port.text}"
+        target = export.target
+        lines.append(f"    export {target.port.text} from {target.instance.text}{alias};")
+    return "\n".join(lines)
+
+
 def _deployment(deployment: Deployment) -> str:
     connections = [_connection(connection) for connection in deployment.connections]
     externals = [_external(external) for external in deployment.externals]
@@ -134,4 +151,5 @@ SIGNATURES: dict[type, Callable[[Any], str]] = {
     Host: _host,
     LabelledHosts: _label,
     Deployment: _deployment,
+    ast.Group: _group,
 }

@@ -20,12 +20,8 @@ def middleware_names(tree: object) -> Iterator[Name]:
                 yield component.middleware
             for port in component.ports:
                 yield from port.middlewares
-        case ddsl.File(deployment=ddsl.Deployment() as deployment):
-            if deployment.middleware:
-                yield deployment.middleware
-            yield from (external.over for external in deployment.externals)
-            yield from (link.middleware for link in deployment.external_connections)
-            yield from _in_block(deployment)
+        case ddsl.File():
+            yield from _of_deployments(tree)
         case bdsl.File(bridge=bdsl.Bridge() as bridge):
             if bridge.middleware:
                 yield bridge.middleware
@@ -34,6 +30,18 @@ def middleware_names(tree: object) -> Iterator[Name]:
             places += [item.place for item in bridge.outputs]
             places += [item.place for item in bridge.services]
             yield from (p.middleware for p in (*places, *calls) if p.middleware)
+
+
+def _of_deployments(tree: ddsl.File) -> Iterator[Name]:
+    deployment = tree.deployment
+    if deployment is not None:
+        if deployment.middleware:
+            yield deployment.middleware
+        yield from (external.over for external in deployment.externals)
+        yield from (link.middleware for link in deployment.external_connections)
+        yield from _in_block(deployment)
+    for group in tree.groups:
+        yield from _in_block(group)
 
 
 def _in_block(block: ddsl.Deployment | ddsl.Group) -> Iterator[Name]:

@@ -6,10 +6,11 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from robocomp_dsl.check.ddsl.components import imported_components
+from robocomp_dsl.check.ddsl.definitions import DefinitionFiles
 from robocomp_dsl.check.passes import check_cdsl, check_ddsl
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.language_server.symbols.group_symbols import GroupSymbols, group_symbol
 from robocomp_dsl.language_server.symbols.symbol import Occurrence, Symbol
 from robocomp_dsl.language_server.symbols.symbols_cdsl import (
     component_symbol,
@@ -34,20 +35,29 @@ def index_file(path: Path, workspace: Workspace) -> tuple[Source, bool, list[Occ
     """The occurrences in the file at `path`. Raises `UnreadableSource`."""
     file = workspace.sources.parse(path, parse_ddsl)
     tree = file.tree.deployment
-    if tree is None:
+    if tree is None and not file.tree.groups:
         return file.source, file.tree.complete, []
-    imported = imported_components(file.tree.imports, path, workspace, check_cdsl, Report())
+    definitions = DefinitionFiles(workspace, check_cdsl)
+    imported = definitions.load(file, Report()).components
     deployment = check_ddsl(path, workspace, Report())
     model_objects: dict[int, object] = {}
     if deployment:
-        model_objects = {instance.span.start: instance for instance in deployment.instances}
+        own = [i for i in deployment.instances if i.span.source.path == path]
+        model_objects = {instance.span.start: instance for instance in own}
         model_objects |= {host.span.start: host for host in deployment.hosts if host.span}
         model_objects |= {external.span.start: external for external in deployment.externals}
-    symbol = Symbol(tree.name.text, "deployment", tree.name.span, deployment)
-    collector = _OccurrenceCollector(imported.components, model_objects, tree.name.text, workspace)
-    occurrences = [Occurrence(symbol.span, symbol, declares=True), *collector.of_hosts(tree)]
-    occurrences += collector.of_externals(tree)
-    occurrences += collector.of_block(tree)
+    name = tree.name.text if tree else ""
+    collector = _OccurrenceCollector(
+        imported.components, model_objects, name, workspace, GroupSymbols(definitions)
+    )
+    occurrences: list[Occurrence] = []
+    if tree is not None:
+        symbol = Symbol(name, "deployment", tree.name.span, deployment)
+        occurrences = [Occurrence(symbol.span, symbol, declares=True), *collector.of_hosts(tree)]
+        occurrences += collector.of_externals(tree)
+        occurrences += collector.of_block(tree)
+    for group in file.tree.groups:
+        occurrences += collector.of_group(group, group_symbol(group))
     return file.source, file.tree.complete, occurrences
 
 
@@ -60,7 +70,9 @@ class _OccurrenceCollector:
         model_objects: Mapping[int, object],
         container: str,
         workspace: Workspace,
+        groups: GroupSymbols,
     ) -> None:
+        self._groups = groups
         self._components = components
         self._model_objects = model_objects
         self._container = container
@@ -95,30 +107,51 @@ class _OccurrenceCollector:
         """All occurrences in a deployment or a group."""
         instances = {i.name.text: self._symbol(i.name, "instance") for i in tree.instances}
         for group in tree.groups:
-            instances[group.name.text] = self._symbol(group.name, "group")
-            yield Occurrence(group.name.span, instances[group.name.text], declares=True)
-            yield from self._place(group)
-            yield from self.of_block(group)
+            instances[group.name.text] = group_symbol(group, self._container)
+        groups = {group.name.text: group for group in tree.groups}
+        for group in tree.groups:
+            yield from self.of_group(group, instances[group.name.text])
+            for name in group.after:
+                yield from _name_occurrence(name, instances)
         kinds = {
             i.name.text: (i.component or i.name).text for i in tree.instances if not i.is_program
         }
         for instance in tree.instances:
             yield from self._instance(instance, instances)
-        instances = {**self._externals, **instances}
-        ends = [end for c in tree.connections for end in (c.source, c.target)]
-        for arbitration in tree.arbitrations:
-            ends += [arbitration.target, *(c.source for c in arbitration.candidates)]
         if isinstance(tree, ast.Group):
-            ends += [export.target for export in tree.exports]
-        for end in ends:
-            yield from _name_occurrence(end.instance, instances)
+            yield from _renamed_exports(tree)
+        for end in _ends(tree):
+            yield from _name_occurrence(end.instance, {**self._externals, **instances})
             component = self._components.get(kinds.get(end.instance.text, ""))
             if component:
                 yield from _port_occurrence(end.port, component, self._workspace)
-            program = instances.get(end.instance.text)
+            if end.instance.text in groups:
+                yield from self._exported(end.port, groups[end.instance.text])
+            program = self._externals.get(end.instance.text)
             if program and isinstance(program.model_object, External):
                 interface = program.model_object.only_port.interface
                 yield Occurrence(end.port.span, declaration_symbol(interface))
+
+    def of_group(self, group: ast.Group, symbol: Symbol) -> Iterator[Occurrence]:
+        """All occurrences in a group, its name included."""
+        yield Occurrence(group.name.span, symbol, declares=True)
+        yield from self._groups.of_definition_name(group)
+        yield from self._place(group)
+        for setting in group.settings:
+            for found in self._groups.of_key(group, setting.key):
+                if isinstance(found, Occurrence):
+                    yield found
+                else:
+                    yield from _key_occurrences(found.name, found.parameters, found.container)
+        yield from self.of_block(group)
+
+    def _exported(self, port: Name, group: ast.Group) -> Iterator[Occurrence]:
+        """The port of a group: its export, or the port that is exported under its own name."""
+        target = self._groups.target_of_export(group, port.text)
+        if isinstance(target, Symbol):
+            yield Occurrence(port.span, target)
+        elif target is not None:
+            yield from _port_occurrence(port, target[1], self._workspace)
 
     def _symbol(self, name: Name, kind: str) -> Symbol:
         model_object = self._model_objects.get(name.span.start)
@@ -162,6 +195,25 @@ class _OccurrenceCollector:
             yield from _name_occurrence(name, self._hosts)
         for name in labels:
             yield from _name_occurrence(name, self._labels)
+
+
+def _ends(tree: ast.Deployment | ast.Group) -> Iterator[ast.PortRef]:
+    """The ports that connections, arbitrations and exports name."""
+    for connection in tree.connections:
+        yield from (connection.source, connection.target)
+    for arbitration in tree.arbitrations:
+        yield from (arbitration.target, *(c.source for c in arbitration.candidates))
+    if isinstance(tree, ast.Group):
+        yield from (export.target for export in tree.exports)
+
+
+def _renamed_exports(tree: ast.Group) -> Iterator[Occurrence]:
+    """The names of exports that differ from those of their ports."""
+    for export in tree.exports:
+        if export.port is not export.target.port:
+            name = export.port
+            symbol = Symbol(name.text, "export", name.span, None, tree.name.text)
+            yield Occurrence(name.span, symbol, declares=True)
 
 
 def _name_occurrence(name: Name, symbols: Mapping[str, Symbol]) -> Iterator[Occurrence]:

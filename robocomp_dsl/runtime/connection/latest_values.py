@@ -28,6 +28,7 @@ class LatestValues:
         self._presence = presence
         self._events = events
         self._asked: dict[PortRecord, float] = {}
+        self._interruptions = presence.registry.interruptions
         self._delivered: dict[tuple[int, str], int] = {}
         self._calls = {name: o.counts.calls for name, o in port.operations.items()}
         self._own_calls = dict.fromkeys(port.operations, 0)
@@ -36,6 +37,10 @@ class LatestValues:
         """Ask the publishers that have appeared."""
         now = time.monotonic()
         asked, self._asked = self._asked, {}
+        if self._interruptions != self._presence.registry.interruptions:
+            # What was published while a router was away has not arrived.
+            self._interruptions = self._presence.registry.interruptions
+            asked = {}
         for record in publishers:
             if record in self._port.at.external:
                 continue

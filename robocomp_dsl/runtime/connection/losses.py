@@ -3,8 +3,8 @@
 In: the sequence numbers of messages, and what publishers announce of themselves
 (`presence.publications`). Out: the `drops` of an operation.
 
-A publisher that is younger than the subscription counts from its first message. An older one
-counts from the number that it has when it is discovered.
+A publisher that is younger than the subscription counts from its first message. An older one, and
+one on another machine, counts from the number that it has when it is discovered.
 """
 
 from __future__ import annotations
@@ -146,7 +146,7 @@ class LossCounter:
         lost = 0
         for publisher, tracker in self._trackers.items():
             created = self._publishers.created.get(publisher)
-            if created is None or tracker.next > _most_published(created):
+            if created is None or tracker.next > self._most_published(publisher, created):
                 continue
             if tracker.begin is None:
                 tracker.begin = self._begin(publisher, created)
@@ -154,9 +154,16 @@ class LossCounter:
         self._counts.drops += lost - self._reported
         self._reported = lost
 
+    def _most_published(self, publisher: int, created: int) -> float:
+        """The number of messages that a publisher can have published since its creation, in ns."""
+        most = MAX_RATE * (1 + (time.monotonic_ns() - created) / 1e9)
+        if publisher in self._publishers.remote:
+            most += self._publishers.counts_at_discovery.get((publisher, self._operation), 0)
+        return most
+
     def _begin(self, publisher: int, created: int) -> int | None:
         """The number from which the messages of a publisher count; None if not known yet."""
-        if created > self._subscribed:
+        if created > self._subscribed and publisher not in self._publishers.remote:
             return 0
         if not self._is_start:
             tracker = self._trackers.get(publisher)
@@ -198,8 +205,3 @@ class LossCounter:
             and (published.interface, published.hash) == (interface.name, interface.hash.hex())
             and matches(self._at, published.component, published.port)
         )
-
-
-def _most_published(created: int) -> float:
-    """The number of messages that a publisher can have published since its creation, in ns."""
-    return MAX_RATE * (1 + (time.monotonic_ns() - created) / 1e9)

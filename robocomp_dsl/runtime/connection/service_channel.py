@@ -220,7 +220,14 @@ class ServiceChannel:
         if self._registry.closed:
             who = self._at.component
             return NoServer(f"{who}, which called {self._at.port}.{operation.name}, is stopping")
-        return NoServer(f"{self._at.port}.{operation.name}: the component that served it exited")
+        place = f"{self._at.port}.{operation.name}"
+        if self._registry.outage:
+            return NoServer(f"{place}: {self._registry.outage}")
+        if self._server is not None and self._registry.has(self._server):
+            denied = ", or its router denied the call" if self._registry.has_router else ""
+            server = self._server.name
+            return NoServer(f"{place}: no reply from {server}: the connection broke{denied}")
+        return NoServer(f"{place}: the component that served it exited")
 
     def wait(self, timeout: float) -> bool:
         """See `ports.Channel`."""

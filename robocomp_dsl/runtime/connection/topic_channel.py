@@ -57,13 +57,14 @@ class TopicChannel:
         self._retired: list[Publisher] = []
         self._attaching = [p for p in ports if p.capabilities.attaches_subscribers]
         self._attached: dict[tuple[str, PortRecord], PublishedPort] = {}
+        self._counting = ports.index(self._attaching[0]) if self._attaching else 0
         self._version = -1
         self._lock = threading.Lock()
 
     def bind(self, operation: Operation) -> OperationCallable:
         """See `ports.Channel`."""
         functions = [self._bind_port(i, operation) for i in range(len(self._ports))]
-        publish = functions[0] if len(functions) == 1 else _publish_on_all(functions)
+        publish = functions[0] if len(functions) == 1 else self._publish_on_all(functions)
         if self._latched:
             publish = self._latched.keep(operation, publish, self._ports[0].numbers)
         if not self._attaching:
@@ -81,7 +82,8 @@ class TopicChannel:
         port = self._ports[index]
         counts = self._context.statistics.of(self._at.port, operation.name)
         # A publication on several middlewares counts once.
-        calls = counts if index == 0 else OperationCounts(self._at.port, operation.name)
+        is_counted = index == self._counting
+        calls = counts if is_counted else OperationCounts(self._at.port, operation.name)
         encode: Any
         send: Any
         encode, send = port.publisher.bind(operation, counts)
@@ -108,6 +110,25 @@ class TopicChannel:
             data = encode(arguments)
             send(data, pack(publisher_id, next(sequence)))
             calls.calls += 1
+
+        return publish
+
+    def _publish_on_all(self, functions: list[OperationCallable]) -> OperationCallable:
+        """A publication on each port, unless it is known that nobody subscribes there.
+
+        Kept messages have the numbers of a port, which counts all of them.
+        """
+        if self._latched:
+            return _in_turn(functions)
+        pairs = [
+            (None if port.capabilities.attaches_subscribers else port, function)
+            for port, function in zip(self._ports, functions, strict=True)
+        ]
+
+        def publish(*arguments: Any) -> None:
+            for port, function in pairs:
+                if port is None or port.publisher.has_subscribers() is not False:
+                    function(*arguments)
 
         return publish
 
@@ -244,7 +265,7 @@ def _unchanged(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
     return arguments
 
 
-def _publish_on_all(functions: list[OperationCallable]) -> OperationCallable:
+def _in_turn(functions: list[OperationCallable]) -> OperationCallable:
     def publish(*arguments: Any) -> None:
         for function in functions:
             function(*arguments)

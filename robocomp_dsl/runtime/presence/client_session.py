@@ -13,7 +13,12 @@ import zenoh
 
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.presence.network_settings import NetworkSettings
-from robocomp_dsl.runtime.presence.tls_settings import RETRY, base_settings, tls_settings
+from robocomp_dsl.runtime.presence.tls_settings import (
+    RETRY,
+    base_settings,
+    drop_settings,
+    tls_settings,
+)
 
 CONNECT_TIMEOUT_S = 10.0
 """The start waits this long for the router; afterwards the session connects again for ever."""
@@ -50,7 +55,5 @@ def _settings(settings: NetworkSettings, timeout_s: float, hold_s: float) -> dic
         **tls_settings(settings.ca, settings.certificate, settings.key, listen=False),
     }
     if hold_s:
-        values["transport/link/tx/queue/congestion_control/drop/wait_before_drop"] = round(
-            hold_s * 1e6
-        )
+        values |= drop_settings(hold_s, hold_s)
     return values

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import json
 import socket
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,7 @@ from robocomp_dsl.runtime.presence.close_session import close_client_session, cl
 from robocomp_dsl.runtime.presence.domain_folder import Membership, join
 from robocomp_dsl.runtime.presence.domain_names import NameTaken, claim_component
 from robocomp_dsl.runtime.presence.network_settings import NetworkSettings, find_network_settings
+from robocomp_dsl.runtime.presence.router_watch import RouterWatch, TokenCallback
 from robocomp_dsl.runtime.private_folder import USER, UnsafeFolder, read_token, token_file
 
 _WAIT_BEFORE_DROP_US = "transport/link/tx/queue/congestion_control/drop/wait_before_drop"
@@ -38,7 +39,8 @@ HANDSHAKE_TIMEOUT_MS = 3000
 class DomainSession:
     """A session, the socket that it listens on, and the component's claim on its name.
 
-    `membership` is None, and `network` is not, if the session is a client of a router.
+    `membership` is None, and `network` and `routers` are not, if the session is a client of a
+    router.
     """
 
     session: zenoh.Session
@@ -46,6 +48,8 @@ class DomainSession:
     name: FileLock | None = None
     port: int = 0
     network: NetworkSettings | None = None
+    routers: RouterWatch | None = None
+    subscribers: list[Any] = field(default_factory=list)
 
     @property
     def socket(self) -> Path:
@@ -53,12 +57,30 @@ class DomainSession:
         assert self.membership  # noqa: S101 - the caller has asked for a session without network
         return self.membership.socket
 
+    def watch_tokens(self, key: str, on_token: TokenCallback) -> None:
+        """Report the liveliness tokens of a key expression, those that exist first.
+
+        A token is not lost because a router is away.
+        """
+        if self.routers:
+            self.routers.watch(key, on_token)
+            return
+
+        def on_sample(sample: zenoh.Sample) -> None:
+            on_token(str(sample.key_expr), sample.kind != zenoh.SampleKind.DELETE)
+
+        self.subscribers.append(
+            self.session.liveliness().declare_subscriber(key, on_sample, history=True)
+        )
+
     def close(self) -> None:
         """Close the session and delete the socket; the last process also deletes the folder."""
         if self.membership:
             close_session(self.session, self.socket, self.port)
         else:
             close_client_session(self.session)
+        if self.routers:
+            self.routers.close()
         if self.name:
             self.name.release(delete=True)
         if self.membership:
@@ -66,18 +88,23 @@ class DomainSession:
 
 
 def open_session(
-    domain: str, port: int = 0, name: str = "", *, hold_s: float = 0.0
+    domain: str,
+    port: int = 0,
+    name: str = "",
+    *,
+    hold_s: float = 0.0,
+    network: NetworkSettings | None = None,
 ) -> DomainSession:
     """Open a session in `domain`, which also listens on TCP `port` of loopback if not 0.
 
     With `name`, the session is that of a component, which no other component of the domain may be
     called. `hold_s`: how long a peer that receives nothing may hold a publication; 0: the default
-    of zenoh.
+    of zenoh. `network`: that of another session of this program; otherwise it is looked for.
 
     Raises `MiddlewareError` if the name is taken, or the folder, the port or the router cannot be
     used.
     """
-    network = find_network_settings(domain)
+    network = network or find_network_settings(domain)
     if network and port:
         raise MiddlewareError(
             f"port {port} cannot be used: in a network of hosts only routers listen; remove `port`"
@@ -91,7 +118,7 @@ def open_session(
     try:
         if network:
             session = open_client_session(network, hold_s=hold_s)
-            return DomainSession(session, None, lock, network=network)
+            return DomainSession(session, None, lock, network=network, routers=RouterWatch(session))
         membership, others = join(domain)
         session = _open(membership.socket, others, port, hold_s)
     except (UnsafeFolder, MiddlewareError) as error:

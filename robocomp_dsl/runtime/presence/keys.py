@@ -26,6 +26,8 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 Kind = Literal["q", "c", "t", "n", "l"]
+ROUTER_KEY = "rc-routers"
+"""The routers of a deployment have the tokens `rc-routers/<name>`, in no domain."""
 
 
 def escape_chunk(text: str) -> str:
@@ -100,16 +102,21 @@ def parse_state(key: str) -> tuple[str, int, str] | None:
 
 @dataclass(frozen=True, slots=True)
 class PublisherToken:
-    """The token of a publisher: a random id, and when it was created (monotonic clock, ns)."""
+    """The token of a publisher: a random id, and when it was created (monotonic clock, ns).
+
+    `clock` identifies the machine whose clock that is.
+    """
 
     component: str
     port: str
     id: int
     created: int
+    clock: str = ""
 
     def key(self, domain: str) -> str:
         """The key of the token."""
-        chunks = (self.component, self.port, f"{self.id:016x}", str(self.created))
+        created = f"{self.created}:{self.clock}" if self.clock else str(self.created)
+        chunks = (self.component, self.port, f"{self.id:016x}", created)
         return f"{domain_prefix(domain)}/a/{'/'.join(escape_chunk(chunk) for chunk in chunks)}"
 
 
@@ -119,7 +126,8 @@ def parse_publisher_token(key: str) -> PublisherToken | None:
     if len(chunks) != 7 or chunks[2] != "a":
         return None
     try:
-        return PublisherToken(chunks[3], chunks[4], int(chunks[5], 16), int(chunks[6]))
+        created, _, clock = chunks[6].partition(":")
+        return PublisherToken(chunks[3], chunks[4], int(chunks[5], 16), int(created), clock)
     except ValueError:
         return None
 

@@ -16,7 +16,11 @@ log = logging.getLogger("robocomp")
 
 
 class PortRegistry:
-    """The ports of a domain; `version` changes with every change."""
+    """The ports of a domain; `version` changes with every change.
+
+    `outage` says that no other port can be reached now; `interruptions` counts how often messages
+    may have been lost because a router was away; `has_router`: a router connects the domain.
+    """
 
     def __init__(self) -> None:
         self._records: dict[str, PortRecord] = {}
@@ -25,10 +29,15 @@ class PortRegistry:
         self._changed = threading.Condition()
         self.version = 0
         self.closed = False
+        self.outage = ""
+        self.interruptions = 0
+        self.has_router = False
 
     def add(self, key: str, record: PortRecord) -> None:
         """A port exists; `key` identifies it for `remove`."""
         with self._changed:
+            if self._records.get(key) == record:
+                return
             self._records[key] = record
             self._check_version(record)
             self._notify()
@@ -68,6 +77,17 @@ class PortRegistry:
                 record.interface,
             )
 
+    def set_outage(self, outage: str) -> None:
+        """The router of this host is away, as `outage` says; empty: a router is back."""
+        if outage:
+            log.warning("%s: calls fail, and messages are lost, until it is back", outage)
+        elif self.outage:
+            log.info("the router of this host is back")
+        with self._changed:
+            self.outage = outage
+            self.interruptions += not outage
+            self._notify()
+
     def invalidate(self) -> None:
         """Let all calls search their server again."""
         with self._changed:
@@ -104,6 +124,11 @@ class PortRegistry:
     def _matching(self, role: str, interface: str) -> list[PortRecord]:
         every = self._records.values()
         return [record for record in every if record.role == role and record.interface == interface]
+
+    def has(self, record: PortRecord) -> bool:
+        """Whether the port exists."""
+        with self._changed:
+            return record in self._records.values()
 
     def wait(
         self, role: str, interface: str, fits: Callable[[PortRecord], bool], seconds: float

@@ -11,7 +11,9 @@ import secrets
 import time
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from itertools import count
+from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
@@ -19,15 +21,26 @@ import zenoh
 
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.presence import keys
+from robocomp_dsl.runtime.presence.domain_session import DomainSession
 from robocomp_dsl.runtime.presence.sequence_format import SEQUENCE_FORMAT
 
 COUNT_TIMEOUT_S = 0.2
 """A publisher replies within a millisecond; a hanging publisher is not waited for."""
+REMOTE_COUNT_TIMEOUT_S = 1.0
+"""As before, for publishers of other hosts: a link may have a long delay."""
 _ALL_REPLIES: dict[str, Any] = {
-    "timeout": COUNT_TIMEOUT_S,
     "target": zenoh.QueryTarget.ALL,
     "consolidation": zenoh.ConsolidationMode.NONE,
 }
+
+
+@cache
+def clock_id() -> str:
+    """Identifies the monotonic clock: it starts at the boot of the machine. "" if unknown."""
+    try:
+        return Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii").strip()[:8]
+    except OSError:
+        return ""
 
 
 class PublicationCounter:
@@ -37,7 +50,8 @@ class PublicationCounter:
         self.id = secrets.randbits(64)
         self._prefix = keys.port_key(domain, "n", at)
         self._counters: dict[str, count[int]] = {}
-        token = keys.PublisherToken(at.component, at.port, self.id, time.monotonic_ns())
+        created = time.monotonic_ns()
+        token = keys.PublisherToken(at.component, at.port, self.id, created, clock_id())
         reply = zenoh.handlers.Callback(self._reply, indirect=False)
         self._queryable = session.declare_queryable(f"{self._prefix}/*", reply)
         self._token = session.liveliness().declare_token(token.key(domain))
@@ -62,26 +76,32 @@ class PublicationCounter:
 class PublisherRegistry:
     """The publishers of a domain that have announced themselves.
 
-    `created`: their ids, with the time of creation (monotonic clock of the machine, ns).
+    `created`: their ids, with the time of creation (monotonic clock of the machine, ns). Those in
+    `remote` are on another machine, whose clock tells nothing here: theirs is that of discovery.
     """
 
-    def __init__(self, session: zenoh.Session, domain: str) -> None:
-        self._session = session
+    def __init__(self, opened: DomainSession, domain: str) -> None:
+        self._session = opened.session
         self._domain = domain
         self.created: dict[int, int] = {}
+        self.remote: set[int] = set()
+        timeout = REMOTE_COUNT_TIMEOUT_S if opened.network else COUNT_TIMEOUT_S
+        self._options = {**_ALL_REPLIES, "timeout": timeout}
         self.counts_at_discovery: dict[tuple[int, str], int] = {}
-        self._subscriber = session.liveliness().declare_subscriber(
-            f"{keys.domain_prefix(domain)}/a/**", self._on_token, history=True
-        )
+        opened.watch_tokens(f"{keys.domain_prefix(domain)}/a/**", self._on_token)
 
-    def _on_token(self, sample: zenoh.Sample) -> None:
-        token = keys.parse_publisher_token(str(sample.key_expr))
-        if token is None or sample.kind == zenoh.SampleKind.DELETE:
+    def _on_token(self, key: str, exists: bool) -> None:
+        token = keys.parse_publisher_token(key)
+        if token is None or not exists:
             return  # messages of a publisher that exited may still be in a queue
-        self.created[token.id] = token.created
-        key = keys.counts_key(self._domain, token.component, token.port)
+        if token.clock == clock_id():
+            self.created[token.id] = token.created
+        elif token.id not in self.remote:
+            self.remote.add(token.id)
+            self.created[token.id] = time.monotonic_ns()
+        counts = keys.counts_key(self._domain, token.component, token.port)
         with contextlib.suppress(zenoh.ZError):  # the session is closing
-            self._session.get(key, self._on_count, **_ALL_REPLIES)
+            self._session.get(counts, self._on_count, **self._options)
 
     def _on_count(self, reply: zenoh.Reply) -> None:
         for published in _published_counts((reply,)):
@@ -92,7 +112,7 @@ class PublisherRegistry:
         """How many messages each publisher has published; hanging publishers are left out."""
         try:
             key = f"{keys.domain_prefix(self._domain)}/n/**"
-            return list(_published_counts(self._session.get(key, **_ALL_REPLIES)))
+            return list(_published_counts(self._session.get(key, **self._options)))
         except zenoh.ZError:  # the session is closing
             return []
 

@@ -34,16 +34,14 @@ class StateMonitor:
     def start(self, on_state_changed: StateCallback) -> None:
         """Start monitoring. Reports the components that are already alive first."""
         self._on_state_changed = on_state_changed
-        self._subscriber = self._opened.session.liveliness().declare_subscriber(
-            f"{domain_prefix(self._domain)}/s/**", self._on_token, history=True
-        )
+        self._opened.watch_tokens(f"{domain_prefix(self._domain)}/s/**", self._on_token)
 
-    def _on_token(self, sample: zenoh.Sample) -> None:
-        token = parse_state(str(sample.key_expr))
+    def _on_token(self, key: str, exists: bool) -> None:
+        token = parse_state(key)
         if token is None or self._on_state_changed is None:
             return
         name, pid, state = token
-        if sample.kind != zenoh.SampleKind.DELETE:
+        if exists:
             self._states[name, pid] = state
             self._on_state_changed(name, pid, state)
         # The end of a state is reported only if no newer state has replaced it.

@@ -30,6 +30,18 @@ def base_settings() -> dict[str, Any]:
     }
 
 
+def drop_settings(seconds: float, large_seconds: float) -> dict[str, Any]:
+    """How long a full link may hold a message before it is dropped, and one of several packets.
+
+    Afterwards messages are dropped at once until the link takes some again.
+    """
+    section = "transport/link/tx/queue/congestion_control/drop"
+    return {
+        f"{section}/wait_before_drop": round(seconds * 1e6),
+        f"{section}/max_wait_before_drop_fragments": round(large_seconds * 1e6),
+    }
+
+
 def tls_settings(ca: Path, certificate: Path, key: Path, *, listen: bool) -> dict[str, Any]:
     """Both ends of a link show a certificate of this CA, and check that of the other end."""
     tls = {

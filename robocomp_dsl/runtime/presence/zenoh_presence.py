@@ -48,13 +48,13 @@ class ZenohPresence:
         self.probe = self._queries.probe
         self.offer_latest = self._queries.offer_latest
         self.fetch_latest = self._queries.fetch_latest
-        self._subscriber = self._session.liveliness().declare_subscriber(
-            f"{keys.domain_prefix(domain)}/p/**", self._on_token, history=True
-        )
+        if opened.routers:
+            self.registry.has_router = True
+            opened.routers.on_outage(self.registry.set_outage)
+        opened.watch_tokens(f"{keys.domain_prefix(domain)}/p/**", self._on_token)
 
-    def _on_token(self, sample: zenoh.Sample) -> None:
-        key = str(sample.key_expr)
-        if sample.kind == zenoh.SampleKind.DELETE:
+    def _on_token(self, key: str, exists: bool) -> None:
+        if not exists:
             self.registry.remove(key)
         elif record := keys.parse_record(key):
             self.registry.add(key, record)
@@ -104,7 +104,7 @@ class ZenohPresence:
     def publishers(self) -> PublisherRegistry:
         """See `Presence`."""
         if self._publishers is None:
-            self._publishers = PublisherRegistry(self._session, self.domain)
+            self._publishers = PublisherRegistry(self.opened, self.domain)
         return self._publishers
 
     def interrupt(self) -> None:
@@ -114,8 +114,9 @@ class ZenohPresence:
     def close(self) -> None:
         """See `Presence`."""
         # Others that stop at the same time would be reported one by one.
-        with contextlib.suppress(zenoh.ZError):
-            self._subscriber.undeclare()
+        while self.opened.subscribers:
+            with contextlib.suppress(zenoh.ZError):
+                self.opened.subscribers.pop().undeclare()
         for record in list(self._tokens):
             self.withdraw(record)
         self.opened.close()

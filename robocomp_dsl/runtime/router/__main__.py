@@ -1,7 +1,8 @@
 """`python -m robocomp_dsl.runtime.router SETTINGS.json`: the router of one host.
 
-In: the settings that `rcdeploy` writes. Out: a router until SIGTERM or SIGINT; exit code 1 if it
-cannot start, with the reason on standard error.
+In: the settings that `rcdeploy` writes. Out: a router until SIGTERM or SIGINT. SIGHUP reads the
+settings and the certificates again; links break for a moment. Exit code 1 if the router cannot
+start, with the reason on standard error.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import argparse
 import logging
 import signal
 import sys
-import threading
+from collections.abc import Iterator
 from pathlib import Path
 
 from robocomp_dsl.runtime.component import logs
@@ -19,6 +20,7 @@ from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.router.router_settings import read_router_settings
 
 log = logging.getLogger("robocomp.router")
+_SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -29,9 +31,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--log-format", choices=("text", "json"), default="text")
     options = parser.parse_args(arguments)
     logs.set_up("router", options.log_level, options.log_format)
-    stop = threading.Event()
-    for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, lambda _number, _frame: stop.set())
+    # Blocked in all threads: `_signals` waits for them.
+    signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
     try:
         settings = read_router_settings(options.settings)
         logs.set_up(settings.name, options.log_level, options.log_format)
@@ -42,20 +43,30 @@ def main(arguments: list[str] | None = None) -> int:
         log.critical("%s", error)
         return 1
     notifier = SystemdNotifier()
-    notifier.state_changed("compute", f"listens at {', '.join(settings.listen)}")
-    log.info("listens at %s", ", ".join(settings.listen))
-    _wait(stop, notifier)
+    listens = f"listens at {', '.join(settings.listen)}"
+    notifier.state_changed("compute", listens)
+    log.info("%s", listens)
+    for number in _signals(notifier):
+        if number != signal.SIGHUP:
+            break
+        try:
+            router.reload(read_router_settings(options.settings))
+        except MiddlewareError as error:
+            log.warning("%s: the router goes on with the former settings", error)
     notifier.state_changed("finalize")
     router.close()
     log.info("stopped")
     return 0
 
 
-def _wait(stop: threading.Event, notifier: SystemdNotifier) -> None:
-    """Wait for a signal; tell systemd meanwhile that the process does not hang."""
-    interval = notifier.watchdog_s / 3 or None
-    while not stop.wait(interval):
-        notifier.ping()
+def _signals(notifier: SystemdNotifier) -> Iterator[int]:
+    """The signals that arrive; tells systemd meanwhile that the process does not hang."""
+    interval = notifier.watchdog_s / 3 or 3600.0
+    while True:
+        if received := signal.sigtimedwait(_SIGNALS, interval):
+            yield received.si_signo
+        else:
+            notifier.ping()
 
 
 if __name__ == "__main__":

@@ -39,6 +39,12 @@ class _Port(NamedTuple):
 
 def describe_denial(name: str, denial: Denial) -> tuple[str, dict[str, str]]:
     """A sentence about what `name` was denied, and the fields of the log line."""
+    if not denial.action:
+        text = (
+            f"denied: {name} is no component of this deployment, and may do nothing; if it was"
+            " added to the DDSL file, run `rcdeploy up`"
+        )
+        return text, {"denied": name}
     kind, port = _parse(denial.key)
     verb = _VERBS.get((denial.action, kind))
     if kind == "p" and verb:

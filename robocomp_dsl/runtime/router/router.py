@@ -13,52 +13,69 @@ from typing import Any
 
 import zenoh
 
-from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.presence.close_session import close_client_session
+from robocomp_dsl.runtime.presence.keys import ROUTER_KEY, escape_chunk
 from robocomp_dsl.runtime.presence.network_settings import parse_endpoint
-from robocomp_dsl.runtime.presence.tls_settings import RETRY, base_settings, tls_settings
-from robocomp_dsl.runtime.router.denied_use import describe_denial
+from robocomp_dsl.runtime.presence.tls_settings import (
+    RETRY,
+    base_settings,
+    drop_settings,
+    tls_settings,
+)
+from robocomp_dsl.runtime.router.refusals import RefusalLog
 from robocomp_dsl.runtime.router.router_settings import RouterSettings
-from robocomp_dsl.runtime.router.zenoh_log import Denial, ZenohLog
+from robocomp_dsl.runtime.router.zenoh_log import ZenohLog
 
 log = logging.getLogger("robocomp.router")
 MAX_LINKS = 10000
-_HANDSHAKES = "zenoh_link_tls"
+HOLD_S, HOLD_LARGE_S = 0.05, 0.5
+"""How long a link that takes nothing may hold messages; 64 MB take 0.2 s over loopback."""
 
 
 class Router:
     """One running router. Raises `MiddlewareError` if it cannot listen."""
 
     def __init__(self, settings: RouterSettings) -> None:
-        self._names: dict[str, str] = {}
-        self._throttle = Throttle()
         for endpoint in settings.listen:
             check_can_listen(endpoint)
-        ZenohLog(self._on_denial, self._on_warning)
-        self._session = _open(settings)
-        self._links = self._session.info.declare_link_events_listener(self._on_link, history=True)
+        self._settings = settings
+        self._refusals = RefusalLog()
+        ZenohLog(self._refusals.on_denial, self._refusals.on_warning)
+        self._open(settings)
+
+    def _open(self, settings: RouterSettings) -> None:
+        self._session = _open_session(settings)
+        key = f"{ROUTER_KEY}/{escape_chunk(settings.name)}"
+        self._token = self._session.liveliness().declare_token(key)
+        listener = self._session.info.declare_link_events_listener
+        self._links = listener(self._on_link, history=True)
 
     def _on_link(self, event: zenoh.LinkEvent) -> None:
         link = event.link
         name = link.auth_identifier or "a program without certificate"
-        self._names[str(link.zid)] = name
         if event.kind == zenoh.SampleKind.PUT:
+            self._refusals.add_name(str(link.zid), name)
             log.info("%s is connected (%s)", name, link.dst)
         else:
             log.info("%s is no longer connected (%s)", name, link.dst)
 
-    def _on_denial(self, denial: Denial) -> None:
-        name = denial.name or self._names.get(denial.zid) or "a program with an unknown name"
-        text, fields = describe_denial(name, denial)
-        if self._throttle.allows(f"{name} {denial.action} {denial.key}"):
-            log.warning("%s", text, extra={"fields": fields})
+    def reload(self, settings: RouterSettings) -> None:
+        """Use new settings; clients connect again by themselves. Raises `MiddlewareError`.
 
-    def _on_warning(self, module: str, text: str) -> None:
-        if module.startswith(_HANDSHAKES):
-            text = f"refused a connection: {text}"
-        if self._throttle.allows(text):
-            log.warning("%s", text)
+        If the new settings cannot be used, the former are used again.
+        """
+        for endpoint in settings.listen:
+            if endpoint not in self._settings.listen:
+                check_can_listen(endpoint)
+        self.close()
+        try:
+            self._open(settings)
+        except MiddlewareError:
+            self._open(self._settings)
+            raise
+        self._settings = settings
+        log.info("uses new settings, listens at %s", ", ".join(settings.listen))
 
     def close(self) -> None:
         """Close all links."""
@@ -102,19 +119,18 @@ def _bind_failure(host: str, port: int, error: OSError) -> str:
             return f"{place}: {error.strerror or error}"
 
 
-def _open(settings: RouterSettings) -> zenoh.Session:
+def _open_session(settings: RouterSettings) -> zenoh.Session:
     config = zenoh.Config()
-    for key, value in _settings(settings).items():
+    for key, value in _zenoh_settings(settings).items():
         config.insert_json5(key, json.dumps(value))
     try:
         return zenoh.open(config)
     except zenoh.ZError as error:
-        raise MiddlewareError(
-            f"the router cannot listen at {', '.join(settings.listen)}: {error}"
-        ) from None
+        places = ", ".join(settings.listen)
+        raise MiddlewareError(f"the router cannot listen at {places}: {error}") from None
 
 
-def _settings(settings: RouterSettings) -> dict[str, Any]:
+def _zenoh_settings(settings: RouterSettings) -> dict[str, Any]:
     files = settings.files
     return {
         "mode": "router",
@@ -128,5 +144,6 @@ def _settings(settings: RouterSettings) -> dict[str, Any]:
         "transport/unicast/max_sessions": MAX_LINKS,
         "access_control": settings.access,
         **base_settings(),
+        **drop_settings(HOLD_S, HOLD_LARGE_S),
         **tls_settings(files.ca, files.certificate, files.key, listen=True),
     }

@@ -24,6 +24,7 @@ _DENIED = re.compile(
     rb" (?P<action>[A-Za-z ]+) \(ingress\) on (?P<key>.+)$"
 )
 _WARNING = re.compile(rb"^\S+ +(?:WARN|ERROR) .*?ThreadId\(\d+\) (?P<module>[\w:]+): (?P<text>.*)$")
+_STRANGER = re.compile(rb"(?P<zid>[0-9a-f]+) did not match any configured ACL subject")
 _COMMON_NAME = re.compile(rb"CertCommonName\(([^)]*)\)")
 _HINT = re.compile(r"\.? ?Hint: .*")
 _READ_BYTES = 1 << 18
@@ -34,7 +35,8 @@ class Denial:
     """A message that the access control did not let in.
 
     `zid` is the session; `name` the common name of its certificate, or empty if the line has none.
-    `action` is zenoh's word, such as `Put` or `Declare Queryable`.
+    `action` is zenoh's word, such as `Put` or `Declare Queryable`; with an empty action and key the
+    name is not in the rules, and everything is denied.
     """
 
     zid: str
@@ -86,6 +88,8 @@ class LogParser:
         if b" TRACE " in line:
             if b"is authorized to" not in line or self._cache_lines:
                 self._feed_trace(line)
+        elif match := _STRANGER.search(line):
+            self._on_denial(Denial(match["zid"].decode(), "", "", ""))
         elif match := _WARNING.match(line):
             text = _HINT.sub("", match["text"].decode("utf-8", "replace"))
             self._on_warning(match["module"].decode(), text)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -10,9 +11,16 @@ from robocomp_dsl.cli.rcdeploy.app import CheckedDeployment, check
 from robocomp_dsl.deploy.hosts import registry
 from robocomp_dsl.deploy.hosts.deployer import Deployer
 from robocomp_dsl.deploy.hosts.differences import HostChanges
+from robocomp_dsl.deploy.hosts.errors import HostError
 from robocomp_dsl.deploy.hosts.host_engine import HostEngine, run_async
+from robocomp_dsl.deploy.hosts.host_logs import HostLogReader, LogRequest, read_past
 from robocomp_dsl.deploy.hosts.rollout import RolloutResult
+from robocomp_dsl.deploy.logs import LogRecord
+from robocomp_dsl.deploy.network.identities import identities
+from robocomp_dsl.deploy.network.key_folder import key_folder
+from robocomp_dsl.deploy.network.update_keys import update_keys
 from robocomp_dsl.deploy.status import ProcessStatus
+from robocomp_dsl.model.deployment import Host
 from tests.deploy.generated_components import generate_components
 from tests.hosts.rig.hosts import Hosts
 
@@ -25,8 +33,12 @@ class SpecificWorker(GenericWorker):
 """
 EYE = """
 class SpecificWorker(GenericWorker):
+    seen = 0
     def compute(self):
-        pass
+        pid = int(self.laser_proxy.getLaserData()[0].dist)
+        if pid != self.seen:
+            self.log.info("eye sees arm %d", pid)
+        self.seen = pid
 """
 
 
@@ -58,6 +70,16 @@ class HostedApp:
         assert checked.deployment
         return Deployer(checked.deployment, checked.plan, self.lines.append)
 
+    def hosts_of_deployment(self) -> list[Host]:
+        return [Host(name, h.address, h.user) for name, h in self.hosts.by_name.items()]
+
+    def make_keys(self) -> None:
+        """As `rcdeploy keys`."""
+        deployment = self.checked().deployment
+        assert deployment
+        folder = key_folder(deployment.name)
+        update_keys(deployment.name, identities(deployment), folder, datetime.now(UTC))
+
     def up(self) -> RolloutResult:
         self.lines.clear()
         return run_async(self.deployer().up())
@@ -78,6 +100,14 @@ class HostedApp:
         self.lines.clear()
         return self.engine().roll_back(version, self.lines.append)
 
+    def logs(self) -> list[LogRecord]:
+        entry = self.engine().deployment
+        readers = [HostLogReader(host, entry.name, LogRequest()) for host in entry.hosts]
+        errors: list[HostError] = []
+        records = run_async(read_past(readers, errors.append))
+        assert not errors, errors
+        return records
+
     def rows(self) -> dict[str, ProcessStatus]:
         return {row.name: row for row in self.engine().status().rows}
 
@@ -85,9 +115,9 @@ class HostedApp:
         return {name: row.pid for name, row in self.rows().items()}
 
 
-def make_app(folder: Path, hosts: Hosts) -> HostedApp:
-    """Generate the components in `folder`."""
+def make_app(folder: Path, hosts: Hosts, eye: str = EYE) -> HostedApp:
+    """Generate the components in `folder`; `eye` is the body of its worker."""
     folder.mkdir()
-    generate_components(folder, {"arm": ARM, "eye": EYE})
+    generate_components(folder, {"arm": ARM, "eye": eye})
     hosts.trust()
     return HostedApp(folder, hosts)

@@ -7,6 +7,7 @@ import os
 import pytest
 
 from robocomp_dsl.deploy import status
+from robocomp_dsl.deploy.component_queries import fetch_states
 from robocomp_dsl.deploy.hosts import registry
 from tests.hosts.engine.hosted_app import HostedApp, make_app
 from tests.hosts.rig.hosts import Hosts
@@ -40,15 +41,35 @@ def kill(app: HostedApp, host: str, component: str) -> None:
 
 def test_host_engine_deploys_in_order(app: HostedApp) -> None:
     app.write(ARM + EYE)
-    assert not app.up().failed
+    app.make_keys()
+    result = app.up()
+    assert not result.failed, "\n".join(app.lines)
     ready = [line.split(" ")[0] for line in app.lines if "ready" in line]
-    assert ready == ["arm", "eye"]
+    assert sorted(ready[:2]) == ["router.base", "router.robot"]
+    assert ready[2:] == ["arm", "eye"]
     rows = app.rows()
     assert {(r.name, r.host, r.state, r.life) for r in rows.values()} == {
+        ("router.base", "base", "ready", ""),
+        ("router.robot", "robot", "ready", ""),
         ("arm", "robot", "ready", "compute"),
         ("eye", "base", "ready", "compute"),
     }
     assert all(row.memory > 1_000_000 and row.up_s > 0 for row in rows.values())
+
+
+def test_host_engine_connects_components_over_hosts(app: HostedApp) -> None:
+    expected = ("base", "eye", f"eye sees arm {app.pids()['arm']}")
+    wait_until(
+        lambda: expected in [(r.host, r.component, r.text) for r in app.logs()],
+        "eye did not call arm",
+    )
+    times = [record.time for record in app.logs()]
+    assert times == sorted(times)
+    state = fetch_states("app", ["arm", "eye"], 10.0)
+    assert {name: each.info.state.name for name, each in state.items()} == {
+        "arm": "Compute",
+        "eye": "Compute",
+    }
 
 
 def test_host_engine_second_rollout_changes_nothing(app: HostedApp) -> None:
@@ -155,7 +176,7 @@ def test_host_engine_stops_deployment(app: HostedApp) -> None:
     lines: list[str] = []
     result = app.engine().stop(lines.append)
     assert (result.code, result.reason) == (0, "stopped")
-    assert lines == ["eye (base): stopped", "arm (base): stopped"]
+    assert lines == [f"{name} (base): stopped" for name in ("eye", "arm", "router.base")]
     assert all(row.state == status.EXITED for row in app.rows().values())
     assert [entry.is_stopped for entry in registry.registered()] == [True]
     base = app.hosts.by_name["base"]

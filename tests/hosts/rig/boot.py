@@ -110,7 +110,7 @@ def make_runtime_folders(settings: dict[str, Any]) -> Path:
 def join_cgroup(folders: list[str], name: str) -> None:
     """Move this process into the child `name` of each cgroup."""
     for folder in folders:
-        Path(folder, name, "cgroup.procs").write_text("0", encoding="ascii")
+        Path(folder, name, "cgroup.procs").write_text("0", encoding="utf-8")
 
 
 def start_manager(settings: dict[str, Any], runtime: Path) -> None:

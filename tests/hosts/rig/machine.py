@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import shlex
 import signal
+import struct
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
@@ -44,7 +46,7 @@ class BootSettings:
 class SimulatedHost:
     """One host. `address`, `user`, `uid`; `home` is its folder on this machine (see `home_path`).
 
-    `environment` is added to that of commands that `run` starts.
+    `environment` is added to that of `run`, and of SSH sessions when sshd reads its settings.
     """
 
     def __init__(self, settings: BootSettings, address: str, network: TestNetwork) -> None:
@@ -135,8 +137,7 @@ class SimulatedHost:
     @property
     def first_pid(self) -> int:
         """The process of this machine that is PID 1 of the host."""
-        assert self._process, f"{self.name} does not run"
-        pid = self._process.pid
+        pid = self._pid
         return int(Path(f"/proc/{pid}/task/{pid}/children").read_text("ascii").split()[0])
 
     # -------------------------------------------------------------- commands
@@ -227,11 +228,62 @@ class SimulatedHost:
         """End `cut_link`."""
         self._network.set_forwarding(self._link, on=True)
 
+    def netem(self, *, loss: float = 0.0, delay_ms: float = 0.0) -> None:
+        """Lose packets to and from the host with this probability, delay the others each way."""
+        self._network.impair(self._link, self._pid, loss, delay_ms / 1e3)
+
+    def end_netem(self) -> None:
+        """End `netem`."""
+        self._network.restore(self._link, self._pid)
+
+    @property
+    def _pid(self) -> int:
+        assert self._process, f"{self.name} does not run"
+        return self._process.pid
+
+    # ----------------------------------------------------------------- clock
+
+    def set_clock_offset(self, seconds: float) -> None:
+        """Shift the wall clock of all that was started since the first call of this.
+
+        The first call shifts it for what is started later by SSH, `run` or the manager; further
+        calls shift it at once.
+        """
+        clock = self._files / "clock"
+        is_first = not clock.exists()
+        with clock.open("r+b" if clock.exists() else "wb") as file:
+            file.write(struct.pack("=q", int(seconds * 1e9)))
+        if not is_first:
+            return
+        source, library = Path(__file__).with_name("shifted_clock.c"), self._files / "clock.so"
+        compile_ = ("cc", "-O2", "-shared", "-fPIC", "-o", str(library), str(source))
+        subprocess.run(compile_, check=True)
+        self.environment |= {
+            "LD_PRELOAD": "/run/host/clock.so",
+            "CLOCK_OFFSET_FILE": "/run/host/clock",
+        }
+        self.write_sshd_config()
+        if self.settings.manager:
+            words = [f"{name}={value}" for name, value in self.environment.items()]
+            self.systemctl("set-environment", *words)
+
+    # ------------------------------------------------------------------ disk
+
+    def limit_disk(self, free_bytes: int) -> None:
+        """Leave so much space in the home, which needs `disk_bytes` at the start."""
+        assert self.settings.disk_bytes, "start the host with disk_bytes"
+        status = os.statvfs(self.home)
+        size = (status.f_blocks - status.f_bfree) * status.f_frsize + free_bytes
+        target = str(self.home_path)
+        self.run(["mount", "-o", f"remount,size={size}", target], root=True)
+
     # ---------------------------------------------------------------- server
 
     def write_sshd_config(self, extra: Sequence[str] = (), *, sftp: bool = True) -> None:
         """Change the settings of sshd, and let it read them; open sessions stay."""
-        accounts.write_sshd_config(self._files, self.user, extra, sftp=sftp)
+        words = [f"{name}={value}" for name, value in self.environment.items()]
+        settings = [f"SetEnv {' '.join(words)}"] if words else []
+        accounts.write_sshd_config(self._files, self.user, [*settings, *extra], sftp=sftp)
         self.reload_sshd()
 
     def reload_sshd(self) -> None:

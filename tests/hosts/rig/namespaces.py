@@ -8,8 +8,10 @@ from __future__ import annotations
 import ctypes
 import os
 import subprocess
+import sys
 from pathlib import Path
 
+EMULATOR = Path(__file__).with_name("link_emulator.py")
 CLONE_NEWNET = 0x40000000
 BRIDGE = "robocomp0"
 SUBNET = "10.77.0"
@@ -44,6 +46,7 @@ class TestNetwork:
         self.number = Path("/proc/thread-self/ns/net").stat().st_ino
         self._next_host = 2
         self._next_link = 0
+        self._emulators: dict[str, subprocess.Popen[bytes]] = {}
 
     def new_address(self) -> str:
         """An address that no host has had."""
@@ -67,10 +70,58 @@ class TestNetwork:
 
     def set_forwarding(self, link: str, *, on: bool) -> None:
         """Connect a link with the bridge, or disconnect it while both its ends stay up."""
+        link = f"{link}o" if link in self._emulators else link
         ip("link", "set", link, *(("master", BRIDGE) if on else ("nomaster",)))
+
+    def impair(self, link: str, pid: int, loss: float, delay_s: float) -> None:
+        """Lose and delay packets of a link in both directions; `restore` ends it."""
+        self.restore(link, pid)
+        netem = ("root", "netem", "loss", f"{loss:.3%}", "delay", f"{delay_s * 1e3:.3f}ms")
+        inside = ("nsenter", f"--net=/proc/{pid}/ns/net")
+        kernel = subprocess.run(
+            ["tc", "qdisc", "add", "dev", link, *netem], check=False, stderr=subprocess.DEVNULL
+        )
+        if kernel.returncode == 0:
+            subprocess.run([*inside, "tc", "qdisc", "add", "dev", "eth0", *netem], check=True)
+            return
+        outer, inner = f"{link}o", f"{link}i"
+        ip("link", "add", outer, "type", "veth", "peer", "name", inner)
+        plain = (sys.executable, "-S", "-E", str(EMULATOR), "plain")
+        subprocess.run([*inside, *plain, "eth0"], check=True)
+        subprocess.run([*plain, outer], check=True)
+        ip("link", "set", link, "nomaster")
+        ip("link", "set", inner, "up")
+        ip("link", "set", outer, "master", BRIDGE, "up")
+        forward = ("forward", link, inner, str(loss), str(delay_s))
+        emulator = subprocess.Popen(
+            ["setpriv", "--pdeathsig", "KILL", *plain[:-1], *forward], stdout=subprocess.PIPE
+        )
+        self._emulators[link] = emulator
+        assert emulator.stdout
+        assert emulator.stdout.readline() == b"ready\n"
+
+    def restore(self, link: str, pid: int) -> None:
+        """End `impair`."""
+        emulator = self._emulators.pop(link, None)
+        if emulator is None:
+            for prefix in ((), ("nsenter", f"--net=/proc/{pid}/ns/net")):
+                device = "eth0" if prefix else link
+                command = (*prefix, "tc", "qdisc", "del", "dev", device, "root")
+                subprocess.run(command, check=False, capture_output=True)
+            return
+        emulator.kill()
+        emulator.wait()
+        assert emulator.stdout
+        emulator.stdout.close()
+        ip("link", "del", f"{link}o")
+        ip("link", "set", link, "master", BRIDGE)
 
     def detach(self, link: str) -> None:
         """Remove a link, if it still exists."""
+        if emulator := self._emulators.pop(link, None):
+            emulator.kill()
+            emulator.communicate()
+            subprocess.run(["ip", "link", "del", f"{link}o"], capture_output=True, check=False)
         subprocess.run(["ip", "link", "del", link], capture_output=True, check=False)
 
     def close(self) -> None:

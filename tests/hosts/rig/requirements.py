@@ -7,7 +7,7 @@ import shutil
 import sys
 from pathlib import Path
 
-PROGRAMS = ("sshd", "systemctl", "ip", "unshare", "nsenter", "setpriv")
+PROGRAMS = ("sshd", "systemctl", "ip", "unshare", "nsenter", "setpriv", "cc")
 """Programs; `tests/hosts/install.sh` installs their packages."""
 CGROUP_ROOTS = ("/sys/fs/cgroup/systemd", "/sys/fs/cgroup/unified", "/sys/fs/cgroup")
 SEARCH_PATH = os.pathsep.join(

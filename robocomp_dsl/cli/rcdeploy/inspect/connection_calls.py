@@ -5,6 +5,7 @@ In: words such as `arm.Laser`. Out: proxies and ports; a refusal becomes a messa
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 
 SERVE_TIMEOUT_S = 1.0
 """A component serves its connections at the same moment as the interface `Component`."""
+CONNECT_TIMEOUT_S = 2.0
+"""A peer that runs is connected within this time."""
+_POLL_S = 0.02
 DIRECTIONS = (("requires", "implements"), ("publishes", "subscribesTo"))
 """The roles of source and target, as in `connect source -> target`."""
 SEARCHING = ("requires", "subscribesTo")
@@ -80,6 +84,22 @@ def connections_proxy(client: DomainClient, component: str) -> ComponentConnecti
             " robocomp_dsl; update it and start it again",
         )
     return proxy
+
+
+def wait_until_connected(proxy: ComponentConnectionsProxy, port: str, peer: str) -> str:
+    """Wait until a port is connected to a peer; the reason why it is not, or empty."""
+    from robocomp_dsl.runtime.connection.connections_interface import ConnectionState  # noqa: PLC0415
+
+    deadline = time.monotonic() + CONNECT_TIMEOUT_S
+    while True:
+        known = [i for i in proxy.getConnections() if i.port == port]
+        states = [i for i in known if i.peer in (peer, peer.rpartition(".")[0])]
+        if any(info.state is ConnectionState.Connected for info in states):
+            return ""
+        if time.monotonic() > deadline:
+            reasons = [info.reason or f"`{peer}` does not answer" for info in states]
+            return reasons[0] if reasons else f"`{port}` does not know `{peer}`"
+        time.sleep(_POLL_S)
 
 
 @contextmanager

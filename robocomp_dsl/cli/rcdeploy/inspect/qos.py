@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
+from robocomp_dsl.cli.rcdeploy.inspect import ddsl_changes
 from robocomp_dsl.cli.rcdeploy.inspect.completion import complete_ports
 from robocomp_dsl.cli.rcdeploy.inspect.target import (
     ROLE_NAMES,
@@ -37,7 +38,10 @@ _SERVER_ITEMS = ("thread_priority",)
     metavar="COMPONENT.PORT [COMPONENT.PORT] ITEM...",
     shell_complete=complete_ports(*ROLE_NAMES, level="port"),
 )
-def command(words: tuple[str, ...], *, deployment: str | None, domain: str | None) -> None:
+@ddsl_changes.option
+def command(
+    words: tuple[str, ...], *, ddsl: bool, deployment: str | None, domain: str | None
+) -> None:
     """Change the quality of service of a connection, or of all connections of a port.
 
     Items: reliable, best_effort, keep_all, latched, depth=N, priority=high, deadline=MS,
@@ -60,6 +64,10 @@ def command(words: tuple[str, ...], *, deployment: str | None, domain: str | Non
     except InvalidSetting as error:
         raise click.UsageError(str(error)) from None
     target = resolve_domain(deployment, domain)
+    ddsl_changes.check_target(target, ddsl=ddsl)
+    if ddsl and len(ports) == 1:
+        raise click.UsageError("--ddsl changes one connection: name both of its ports")
+    ends: ConnectionEnds | None = None
     with open_client(target) as client:
         if len(ports) == 1:
             found = {end.port: end for end in calls.find_ports(client, target, ports[0])}
@@ -73,7 +81,13 @@ def command(words: tuple[str, ...], *, deployment: str | None, domain: str | Non
                 peer = ends.found if end is ends.searching else ends.searching
                 # A served port has one quality of service for all its clients.
                 _change(client, end, "" if end.role == "implements" else peer.name, chosen)
-    print("until the components end; to keep it, write it into the deployment")
+    if not ddsl or ends is None:
+        print("until the components end; to keep it, add --ddsl, or write it into the deployment")
+        return
+    from robocomp_dsl.deploy.ddsl_connections import write_connection_qos  # noqa: PLC0415
+
+    names = ddsl_changes.connection_names(ends)
+    ddsl_changes.write(target, lambda path: write_connection_qos(path, names, items))
 
 
 def _distribute(

@@ -19,6 +19,7 @@ from robocomp_dsl.cli.program import EXIT_BROKEN_PIPE, EXIT_FINDINGS, EXIT_INTER
 
 if TYPE_CHECKING:
     from robocomp_dsl.client import ComponentDescription, DescribedPort, DomainClient
+    from robocomp_dsl.deploy.engine import Engine
 
 CALL_TIMEOUT_S = 5.0
 ROLE_NAMES = {
@@ -64,11 +65,16 @@ def _begins_with_name(args: Sequence[str]) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class DomainTarget:
-    """A domain; `components` and the name `deployment` are known if rcdeploy runs one in it."""
+    """A domain; the others are known if rcdeploy runs a deployment in it.
+
+    `path` is its DDSL file, `engine` what runs it.
+    """
 
     domain: str
     components: tuple[str, ...] = ()
     deployment: str = ""
+    path: str = ""
+    engine: Engine | None = None
 
     def component(self, name: str) -> str:
         """The full name of a component. Raises `CliError`."""
@@ -95,7 +101,8 @@ def resolve_domain(deployment: str | None, domain: str | None) -> DomainTarget:
     from robocomp_dsl.cli.rcdeploy import running  # noqa: PLC0415 - only for deployments
 
     found = running.resolve_deployment(deployment)
-    return DomainTarget(found.domain, tuple(running.answering_components(found)), found.name)
+    components = tuple(running.answering_components(found))
+    return DomainTarget(found.domain, components, found.name, found.path, found)
 
 
 @contextmanager

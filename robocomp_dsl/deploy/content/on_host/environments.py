@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import csv
+import ctypes
 import json
 import os
 import shutil
@@ -57,7 +58,7 @@ def install_environment(request: dict[str, Any]) -> dict[str, Any]:
         marker = {"name": name, "requirements": request["requirements"]}
         blobs = [blob for _, blob in request["wheels"]] + [request["uv"]]
         (draft / MARKER).write_text(json.dumps(marker | {"blobs": blobs}))
-        os.sync()  # after a power failure no complete environment has empty files
+        _sync_file_system(folder)  # after a power failure no complete environment has empty files
         _replace(folder, draft, folder / name)
     finally:
         shutil.rmtree(wheels, ignore_errors=True)
@@ -85,7 +86,16 @@ def _create(root: Path, draft: Path, wheels: Path, request: dict[str, Any]) -> N
     }
     python = ["--python", request["python"]]
     _run([uv, "venv", "--quiet", "--relocatable", *python, str(draft)], variables)
-    install = [uv, "pip", "install", "--quiet", "--no-index", "--require-hashes", "--no-build", "--no-deps"]
+    install = [
+        uv,
+        "pip",
+        "install",
+        "--quiet",
+        "--no-index",
+        "--require-hashes",
+        "--no-build",
+        "--no-deps",
+    ]
     install += ["--python", str(draft / "bin" / "python"), "--compile-bytecode"]
     install += ["--find-links", str(wheels), "-r", str(wheels / "requirements.txt")]
     _run(install, variables)
@@ -131,6 +141,16 @@ def _run(command: list[str], variables: dict[str, str]) -> None:
         output = (result.stderr or result.stdout).decode("utf-8", "replace").strip()
         reason = output or f"exit code {result.returncode}"
         raise InstallationFailed(f"`{' '.join(command[:3])}` failed: {reason[-2000:]}")
+
+
+def _sync_file_system(folder: Path) -> None:
+    """Wait until the disk has all that was written to the file system of `folder`."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        if ctypes.CDLL(None).syncfs(descriptor):
+            os.sync()
+    finally:
+        os.close(descriptor)
 
 
 def _replace(folder: Path, draft: Path, complete: Path) -> None:

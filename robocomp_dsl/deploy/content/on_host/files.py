@@ -7,6 +7,7 @@ file or folder gets its name when it is complete; whatever ends a run, the next 
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import errno
 import hashlib
 import json
@@ -18,6 +19,7 @@ from typing import Any
 
 COPIED_BYTES = 1 << 20
 """Files of a tree up to this size are copies that a component may change; others are links."""
+FEW_FILES = 64
 BLOB_TIME_S = 1
 """The modification time of every blob; another time tells that somebody wrote to it."""
 
@@ -99,49 +101,73 @@ def build_trees(request: dict[str, Any]) -> dict[str, Any]:
     folder = root / "trees"
     folder.mkdir(parents=True, exist_ok=True)
     drafts = []
+    written: list[Path] = []
     for name, tree in request["trees"].items():
         draft = folder / f".new-{name}-{os.getpid()}"
         shutil.rmtree(draft, ignore_errors=True)
         complete = folder / name
-        _fill(draft if not complete.is_dir() else complete, root / "blobs", tree)
+        written += _fill(draft if not complete.is_dir() else complete, root / "blobs", tree)
         manifest = folder / f".new-{name}-{os.getpid()}.json"
         manifest.write_text(json.dumps(tree))
         manifest.replace(folder / f"{name}.json")
         if not complete.is_dir():
             drafts.append((draft, complete))
-    os.sync()  # after a power failure no complete tree has empty files
+    _store(root, written)  # after a power failure no complete tree has empty files
     for draft, complete in drafts:
         _rename_folder(draft, complete)
     return {}
 
 
-def _fill(folder: Path, blobs: Path, tree: dict[str, Any]) -> None:
-    """Add the files that a tree lacks; a file that exists may have been changed on purpose."""
+def _fill(folder: Path, blobs: Path, tree: dict[str, Any]) -> list[Path]:
+    """Add the files that a tree lacks; a file that exists may have been changed on purpose.
+
+    The copies that are not stored on the disk yet.
+    """
     for name in (".", *tree["folders"]):
         (folder / name).mkdir(parents=True, exist_ok=True)
     known = set()
+    written = []
     for path, blob, size in tree["files"]:
         file = folder / path
         if file.parent not in known:
             file.parent.mkdir(parents=True, exist_ok=True)
             known.add(file.parent)
-        if not os.path.lexists(file):
-            _place_file(blobs / blob, file, size)
+        if not os.path.lexists(file) and not (size > COPIED_BYTES and _link(blobs / blob, file)):
+            _copy(blobs / blob, file)
+            written.append(file)
+    return written
 
 
-def _place_file(blob: Path, file: Path, size: int) -> None:
-    if size > COPIED_BYTES:
-        try:
-            os.link(blob, file)
-        except OSError as error:
-            if error.errno not in (errno.EMLINK, errno.EPERM, errno.EXDEV):
-                raise
-        else:
-            return
+def _link(blob: Path, file: Path) -> bool:
+    """Whether a link could be made."""
+    try:
+        os.link(blob, file)
+    except OSError as error:
+        if error.errno in (errno.EMLINK, errno.EPERM, errno.EXDEV):
+            return False
+        raise
+    return True
+
+
+def _copy(blob: Path, file: Path) -> None:
     draft = file.with_name(f".new-{file.name[:200]}")
     shutil.copyfile(blob, draft)
     draft.chmod(0o755 if blob.name.endswith("-x") else 0o644)
     draft.replace(file)
+
+
+def _store(root: Path, files: list[Path]) -> None:
+    """Wait until the disk has `files`; of many, until it has all of the file system."""
+    if len(files) > FEW_FILES:
+        descriptor = os.open(root, os.O_RDONLY)
+        failed = ctypes.CDLL(None).syncfs(descriptor)
+        os.close(descriptor)
+        if failed:
+            os.sync()
+        return
+    for file in files:
+        with file.open("rb") as stream:
+            os.fsync(stream.fileno())
 
 
 def _rename_folder(draft: Path, complete: Path) -> None:

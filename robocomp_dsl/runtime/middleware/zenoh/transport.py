@@ -31,6 +31,7 @@ class ZenohTransport:
     def __init__(self, domain: str, opened: DomainSession) -> None:
         self._domain = domain
         self._session = opened.session
+        self._network = opened.network
         self._id = str(opened.session.info.zid())
         self._reliable: DomainSession | None = None
 
@@ -52,7 +53,7 @@ class ZenohTransport:
     def _reliable_session(self) -> zenoh.Session:
         """A second session for reliable publishers: it waits before it drops a message."""
         if self._reliable is None:
-            self._reliable = open_session(self._domain, hold_s=HOLD_S)
+            self._reliable = open_session(self._domain, hold_s=HOLD_S, network=self._network)
         return self._reliable.session
 
     def subscribe(self, port: IncomingPort) -> ServedZenohPort:

@@ -1,6 +1,6 @@
 """Watches the memory and CPU time of a process and its children, and judges them by their limits.
 
-In: `ResourceLimits` and samples from /proc. Out: a warning when a limit is exceeded, and a failure
+In: `Limits` and samples from /proc. Out: a warning when a limit is exceeded, and a failure
 when it stays exceeded. Memory is the resident size, in which shared pages count for each process.
 """
 
@@ -10,9 +10,22 @@ import os
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
-from robocomp_dsl.deploy.supervisor.resource_usage import ResourceUsage
-from robocomp_dsl.model.deployment import ResourceLimits
+from robocomp_dsl.host_tools.resource_usage import ResourceUsage
+
+
+class Limits(Protocol):
+    """Limits of a process and its children; 0: none. `cpu` 1.0 is one core."""
+
+    @property
+    def memory_bytes(self) -> int:
+        """Of the resident size."""
+
+    @property
+    def cpu(self) -> float:
+        """The share of a core."""
+
 
 SAMPLE_S = 1.0
 TOLERANCE_S = 5.0
@@ -30,7 +43,7 @@ class LimitExcess:
 class LimitTracker:
     """Judges the samples of one process; pure."""
 
-    def __init__(self, limits: ResourceLimits, tolerance_s: float = TOLERANCE_S) -> None:
+    def __init__(self, limits: Limits, tolerance_s: float = TOLERANCE_S) -> None:
         self._limits = limits
         self._tolerance_s = tolerance_s
         self._since: dict[str, float] = {}

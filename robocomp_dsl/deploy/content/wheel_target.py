@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 
-OLDEST = (3, 11)
+from robocomp_dsl.deploy.hosts.host_facts import HostFacts
+
 _OLDEST_GLIBC = (2, 5)
 _LEGACY = {(2, 17): "manylinux2014", (2, 12): "manylinux2010", (2, 5): "manylinux1"}
 _LEGACY_MACHINES = {"manylinux2010": ("x86_64", "i686"), "manylinux1": ("x86_64", "i686")}
 
 
 @dataclass(frozen=True, slots=True)
-class HostPython:
-    """CPython at `path` on a Linux host.
+class WheelTarget:
+    """The Python of a host: CPython at `path` on Linux.
 
     `glibc` is None with musl, whose version is then `musl`.
     """
@@ -75,3 +77,25 @@ class HostPython:
             "sys_platform": "linux",
             "extra": "",
         }
+
+
+def choose_target(facts: HostFacts) -> WheelTarget | None:
+    """The Python of a host for components; None if none is suitable.
+
+    The version of the Python that runs here is preferred: its packages are installed here.
+    """
+    suitable = [python for python in facts.pythons if python.is_suitable]
+    same = [python for python in suitable if python.version[:2] == sys.version_info[:2]]
+    python = next(iter([*same, *suitable]), None)
+    if python is None:
+        return None
+    major, minor = python.version[:2]
+    return WheelTarget(python.path, (major, minor), facts.machine, _version(facts.glibc))
+
+
+def _version(text: str) -> tuple[int, int] | None:
+    """`2.36` as numbers; None for anything else."""
+    parts = text.split(".")
+    if len(parts) < 2 or not (parts[0].isdigit() and parts[1].isdigit()):
+        return None
+    return int(parts[0]), int(parts[1])

@@ -1,0 +1,1 @@
+"""Programs that systemd units run on a host beside the components; standard library only."""
