@@ -24,7 +24,10 @@ def test_compose_file_is_valid(export: Export, tmp_path: Path) -> None:
     assert export("compose").exit_code == 0
     command = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", "vendor.compose-spec"]
     checked = subprocess.run(
-        [*command, str(tmp_path / "build/compose.yaml")], capture_output=True, text=True, check=False
+        [*command, str(tmp_path / "build/compose.yaml")],
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert checked.returncode == 0, checked.stdout
 
@@ -101,3 +104,20 @@ def test_compose_router_denies_by_default(export: Export, tmp_path: Path) -> Non
     router = json.loads((tmp_path / "build/network/router.json").read_text())
     assert router["listen"] == ["tls/127.0.0.1:7447"]
     assert router["access"]["default_permission"] == "deny"
+
+
+def test_group_in_one_process_is_one_service(export: Export, tmp_path: Path) -> None:
+    (tmp_path / "app.ddsl").write_text(
+        'import "arm/arm.cdsl";\nimport "eye/eye.cdsl";\nDeployment Robot_1\n{\n'
+        "    group body { inprocess; component arm { set serial = a; }; component eye { }; };\n};\n"
+    )
+    result = export("compose")
+    assert result.exit_code == 0, result.output
+    services = compose(tmp_path)["services"]
+    assert set(services) == {"router", "body"}
+    command = services["body"]["command"]
+    assert "robocomp_dsl.runtime.group_process" in command
+    folders = [command[i + 1] for i, word in enumerate(command) if word == "--component"]
+    content = tmp_path / "build/content"
+    assert len(folders) == 2
+    assert all((content / folder.split("/content/")[1] / "main.py").is_file() for folder in folders)

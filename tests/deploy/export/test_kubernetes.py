@@ -33,7 +33,11 @@ def test_kubernetes_objects_are_valid(export: Export, tmp_path: Path) -> None:
     for each in checked:
         validator.validate(each, validator.latest_version(), strict=True)
     kinds = [each["kind"] for each in checked]
-    assert (kinds.count("Deployment"), kinds.count("Namespace"), kinds.count("Service")) == (5, 1, 1)
+    assert (kinds.count("Deployment"), kinds.count("Namespace"), kinds.count("Service")) == (
+        5,
+        1,
+        1,
+    )
     with pytest.raises(validator.ValidationError):
         validator.validate({**checked[0], "metadata": 1}, validator.latest_version(), strict=True)
 

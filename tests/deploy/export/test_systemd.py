@@ -83,7 +83,7 @@ def test_systemd_export_over_hosts_has_router_and_no_keys(export: Export, tmp_pa
     assert result.exit_code == 0, result.output
     brain = tmp_path / "build/brain"
     assert (brain / "units/robocomp-Robot_1.router.service").is_file()
-    assert (brain / "private/router.json").is_file()
+    assert (brain / "private/exported-router.json").is_file()
     assert (brain / "private/network-left%2Farm.json").is_file()
     assert '"$ROBOCOMP_KEYS"/left%2Farm.key' in (brain / "install.sh").read_text()
     assert not list((tmp_path / "build").rglob("*.key"))
