@@ -33,9 +33,10 @@ from robocomp_dsl.model.deployment import Deployment, Host, Instance
 
 PYTHON = "python3"
 HASH_DIGITS = 16
-CONFINED = ("local", "inproc")
-"""Middlewares of one machine, and of one process."""
-ANYWHERE = ("zenoh",)
+CONFINED = ("local",)
+"""Middlewares of one machine."""
+ANYWHERE = ("zenoh", "inproc")
+"""Middlewares that need nothing: `inproc` is inside of a process."""
 _DEVICE = re.compile(r"/dev/[A-Za-z0-9_./-]+")
 _SECRET = re.compile(r"(PASSWORD|PASSPHRASE|SECRET|TOKEN|API_?KEY)$", re.IGNORECASE)
 _WATCHDOG_VARIABLE = "WATCHDOG_USEC"
