@@ -15,7 +15,12 @@ FILES = {
 module Bench
 {
     struct Pose { double x; double y; double z; double rx; double ry; double rz; long sent; };
-    interface Mover { [query] Pose move(Pose pose); [command] void go(Pose pose); [query] double delay(); };
+    interface Mover
+    {
+        [query] Pose move(Pose pose);
+        [command] void go(Pose pose);
+        [query] double delay();
+    };
     interface Track { [publish] void moved(Pose pose); };
     interface Rounds { [query] double once(string kind, int count); };
 };

@@ -17,6 +17,7 @@ from robocomp_dsl.deploy.devices import describe_devices, devices_environment
 from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.group_processes import join_groups
 from robocomp_dsl.deploy.plan_text import describe_clock, describe_host, describe_placement
+from robocomp_dsl.deploy.planned_group import PlannedGroup, planned_groups
 from robocomp_dsl.deploy.process import Process
 from robocomp_dsl.model.connection_index import ConnectionIndex
 from robocomp_dsl.model.deployment import (
@@ -63,6 +64,7 @@ class Plan:
     clock: str = "wall"
     externals: tuple[ExternalProgram, ...] = ()
     external_connections: tuple[ExternalConnection, ...] = ()
+    groups: tuple[PlannedGroup, ...] = ()
 
     @property
     def components(self) -> tuple[Process, ...]:
@@ -109,6 +111,7 @@ def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) ->
         describe_clock(deployment.clock),
         tuple(_external(external, deployment) for external in deployment.externals),
         deployment.external_connections,
+        planned_groups(deployment),
     )
 
 

@@ -8,6 +8,7 @@ import pytest
 
 from robocomp_dsl.check.passes import check_ddsl
 from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.cli.rcdeploy.plan import as_text
 from robocomp_dsl.deploy.plan import Plan, Process, plan
 from robocomp_dsl.deploy.selection import NoSuchComponent, select_group, select_names
 from robocomp_dsl.diagnostics import Report
@@ -140,3 +141,18 @@ def test_select_group_of_one_process_keeps_it(tmp_path: Path) -> None:
     found = planned(tmp_path, text, "left")
     assert [p.name for p in found.processes] == ["left"]
     assert len(found.processes[0].members) == 2
+
+
+def test_plan_shows_exports_of_groups(tmp_path: Path) -> None:
+    text = "group all { group left : arm { inprocess; prefix far; }; export Laser from left; };"
+    found = planned(tmp_path, text)
+    lines = [line for group in found.groups for line in group.format()]
+    assert lines == [
+        "group all",
+        "   Laser is far/all-left-body.Laser",
+        "group far/all-left : arm, one process",
+        "   LaserPub is far/all-left-body.LaserPub",
+        "   Laser is far/all-left-body.Laser",
+    ]
+    assert found.groups[1].as_dict()["exports"]["Laser"] == "far/all-left-body.Laser"
+    assert "group far/all-left : arm, one process" in list(as_text(found))

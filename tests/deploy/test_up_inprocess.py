@@ -53,3 +53,26 @@ def test_up_runs_group_in_one_process_and_restarts_it(app_folder: Path) -> None:
     assert seen == [group["pid"]] * 2 + [restarted[0]["pid"]] * 2
     ends = [line.split("| ")[1] for line in app.lines if "finalizes" in line]
     assert ends == ["eye finalizes", "eye finalizes", "arm finalizes"]
+
+
+LOCKSTEP = """
+import "{components}/mobile_base/mobile_base.cdsl";
+import "{components}/wander/wander.cdsl";
+Deployment app
+{{
+    clock sim lockstep limit 60 s;
+    group all {{ inprocess; ready within 200 s; component base : mobile_base;
+        component wander {{ after base; }}; }};
+}};
+"""
+
+
+def test_up_runs_group_in_one_process_in_lockstep(app_folder: Path) -> None:
+    components = Path(__file__).parents[2] / "components"
+    (app_folder / "app.ddsl").write_text(LOCKSTEP.format(components=components))
+    with start_app() as app:
+        app.until("in lock-step with all-wander", "all is ready")
+        clock = status()["clock"]
+        assert clock["seconds"] >= 0.0
+        app.process.send_signal(signal.SIGINT)
+        assert app.end() == 0

@@ -162,3 +162,32 @@ def test_pages_load_no_external_resources(demo: dict[str, str]) -> None:
 
 def test_documentation_is_deterministic(demo: dict[str, str]) -> None:
     assert pages(DEMO) == demo
+
+
+def test_deployment_page_draws_a_group_as_one_box(tmp_path: Path) -> None:
+    parts = ROOT / "tests" / "cases" / "ddsl" / "sem_parts"
+    (tmp_path / "app.ddsl").write_text(f"""
+        import "{parts}/body.cdsl";
+        import "{parts}/reflex.cdsl";
+        group arm {{ component body; component reflex; export LaserPub from body as Seen;
+            export Laser from body; }};
+        Deployment app {{
+            group left : arm {{ inprocess; prefix far; }};
+            group both {{ group right : arm; }};
+            component reflex;
+            connect left.Seen -> reflex.LaserPub;
+            connect reflex.Laser -> left.Laser;
+        }};
+    """)
+    written = pages(tmp_path / "app.ddsl")
+    text = written["deployments/app.html"]
+    figures = text.split('role="group" aria-label="Components of')[1:]
+    boxes = [figure.partition("</svg>")[0] for figure in figures]
+    assert len(boxes) == 4
+    assert ">arm, 2 components, one process</text>" in boxes[0]
+    assert ">left-body</text>" not in boxes[0]
+    assert ">left-body</text>" in boxes[1]
+    assert ">both-right</text>" in boxes[2]
+    assert ">both-right-body</text>" in boxes[3]
+    page = read(text).text
+    assert "instance of arm, one process, prefix far" in page

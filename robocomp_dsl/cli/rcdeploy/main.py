@@ -17,6 +17,7 @@ TABLE = {
     "up": ("rcdeploy.up", "Run a deployment in the foreground; Ctrl-C stops it in order."),
     "keys": ("rcdeploy.keys", "Make the certificates of a deployment over hosts."),
     "plan": ("rcdeploy.plan", "Show which processes would be started, and how."),
+    "export": ("rcdeploy.export", "Write a deployment for systemd, compose or Kubernetes."),
     "check": ("rcdeploy.check", "Check a deployment; start nothing."),
     "diff": ("rcdeploy.diff", "Compare what runs on hosts with the description."),
     "rollback": ("rcdeploy.rollback", "Run an earlier version of a deployment over hosts."),

@@ -117,6 +117,7 @@ def as_data(plan: Plan, choices: Sequence[PlacementChoice] = ()) -> dict[str, An
         "middlewares": list(plan.middlewares),
         "clock": plan.clock,
         "processes": [_process(process) for process in plan.processes],
+        "groups": [group.as_dict() for group in plan.groups],
         "externals": [program.as_dict() for program in plan.externals],
         "external_connections": [_connection(each) for each in plan.external_connections],
         "placement": [dataclasses.asdict(choice) for choice in choices],
@@ -175,6 +176,8 @@ def as_text(plan: Plan) -> Iterator[str]:
         for name in names:
             yield ""
             yield from _described(by_name[name], wave)
+    for group in plan.groups:
+        yield from ("", *group.format())
     for program in plan.externals:
         port, connected = program.format()
         yield from ("", port, f"   {connected}")

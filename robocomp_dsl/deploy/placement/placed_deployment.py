@@ -9,12 +9,19 @@ from robocomp_dsl.model.deployment import Deployment, Host, Instance
 
 def with_hosts(deployment: Deployment, hosts: Mapping[str, Host]) -> Deployment:
     """`deployment` with the hosts of some instances, by name, replaced everywhere."""
-    placed = {
-        instance.name: instance.replace(host=hosts[instance.name])
-        if instance.name in hosts
-        else instance
-        for instance in deployment.instances
-    }
+    return with_instances(
+        deployment,
+        {
+            instance.name: instance.replace(host=hosts[instance.name])
+            for instance in deployment.instances
+            if instance.name in hosts
+        },
+    )
+
+
+def with_instances(deployment: Deployment, changed: Mapping[str, Instance]) -> Deployment:
+    """`deployment` with some instances, by name, replaced everywhere."""
+    placed = {i.name: changed.get(i.name, i) for i in deployment.instances}
     ends: dict[str, Instance] = {**{e.name: e for e in deployment.externals}, **placed}
     clock = deployment.clock
     return deployment.replace(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from robocomp_dsl.generate import literals
-from robocomp_dsl.generate.doc.graphs import deployment_figure
+from robocomp_dsl.generate.doc.graphs import deployment_figure, group_figure
 from robocomp_dsl.generate.doc.interface_page import pattern_badge
 from robocomp_dsl.generate.doc.nodes import (
     SPACE,
@@ -83,7 +83,10 @@ def _blocks(deployment: Deployment, site: DocumentationSite) -> Iterator[Block]:
     groups = [TableRow(_group(group)) for group in deployment.groups]
     if groups:
         yield Heading(2, plain_text("Groups"), "groups")
-    yield from data_table("Groups", ("group", "instances", "exports", "what it is"), groups)
+    yield from data_table("Groups", ("group", "kind", "instances", "exports", "what it is"), groups)
+    for group in deployment.groups:
+        yield Heading(3, plain_text(f"Group {group.name}"), f"group-{group.name}")
+        yield group_figure(deployment, group, site)
     hosts = [TableRow(_host(host)) for host in deployment.hosts]
     if hosts:
         yield Heading(2, plain_text("Hosts"), "hosts")
@@ -205,8 +208,12 @@ def _group(group: Group) -> tuple[Inlines, ...]:
         (InlineCode(f"{export.instance.name}.{export.port.name}"), *_export_alias(export))
         for export in group.exports
     )
+    kind = (PlainText("instance of "), InlineCode(group.definition)) if group.definition else ()
+    process = plain_text("one process") if group.inprocess else ()
+    prefix = (PlainText("prefix "), InlineCode(group.prefix)) if group.prefix else ()
     return (
         inline_code(group.name),
+        join_inlines(part for part in (kind, process, prefix) if part),
         join_inlines(map(inline_code, group.instances)),
         join_inlines(exports),
         flatten_doc(group.doc),

@@ -11,30 +11,84 @@ from robocomp_dsl.generate.doc.nodes import Figure
 from robocomp_dsl.generate.doc.site import DocumentationSite
 from robocomp_dsl.generate.doc.target import Target
 from robocomp_dsl.model.component import Component, Port, Role
-from robocomp_dsl.model.deployment import Connection, Deployment, External, Instance
+from robocomp_dsl.model.deployment import Connection, Deployment, External, Group, Instance
 
 CALL, TOPIC = "call", "topic"
 LEGEND = ((CALL, "calls"), (TOPIC, "publishes to"))
 
 
 def deployment_figure(deployment: Deployment, site: DocumentationSite) -> Figure:
-    """Instances and their connections; connections between the same two instances are one line."""
-    shown = (*deployment.instances, *deployment.externals)
-    index = {id(instance): i for i, instance in enumerate(shown)}
-    nodes = [_instance(instance, site) for instance in shown]
+    """Instances and groups outside of groups, and their connections; a group is one box."""
+    title = f"Components of {deployment.name} and their connections"
+    count = f"{len(deployment.instances)} components, {len(deployment.connections)} connections"
+    return _figure(deployment, site, "", title, count, ".graph")
+
+
+def group_figure(deployment: Deployment, group: Group, site: DocumentationSite) -> Figure:
+    """The instances and groups in a group, and their connections with each other."""
+    title = f"Components of the group {group.name} and their connections"
+    count = f"{len(group.instances)} components"
+    return _figure(deployment, site, group.name, title, count, f".{group.name}.graph")
+
+
+def _figure(
+    deployment: Deployment,
+    site: DocumentationSite,
+    scope: str,
+    title: str,
+    about: str,
+    suffix: str,
+) -> Figure:
+    """What is in the group `scope`; connections between the same two boxes are one line."""
+    nodes, position = _boxes(deployment, site, scope)
     bundles: dict[tuple[int, int, str], list[Connection]] = {}
     for connection in deployment.connections:
         kind = TOPIC if connection.source_port.role.is_topic else CALL
-        ends = index[id(connection.source)], index[id(connection.target)]
-        bundles.setdefault((*ends, kind), []).append(connection)
+        source, target = (position.get(id(c)) for c in (connection.source, connection.target))
+        if source is None or target is None or (source == target and _has_groups(connection)):
+            continue
+        bundles.setdefault((source, target, kind), []).append(connection)
     edges = [
         GraphEdge(source, target, kind, _labels(wires, site), _tooltip(wires))
         for (source, target, kind), wires in bundles.items()
     ]
-    title = f"Components of {deployment.name} and their connections"
-    count = f"{len(deployment.instances)} components, {len(deployment.connections)} connections"
-    drawing = draw_graph(title, count, nodes, edges)
-    return Figure(f"{site.page(deployment)}.graph", drawing, _legend(edges))
+    drawing = draw_graph(title, about, nodes, edges)
+    return Figure(f"{site.page(deployment)}{suffix}", drawing, _legend(edges))
+
+
+def _has_groups(connection: Connection) -> bool:
+    """Whether it is a connection inside of a box, rather than of an instance with itself."""
+    return connection.source is not connection.target
+
+
+def _boxes(
+    deployment: Deployment, site: DocumentationSite, scope: str
+) -> tuple[list[GraphNode], dict[int, int]]:
+    """The nodes in a scope, and the position of the node of each instance (by `id`)."""
+    groups = {group.name: group for group in deployment.groups}
+    nodes: list[GraphNode] = []
+    of_group: dict[str, int] = {}
+    position: dict[int, int] = {}
+    for instance in (*deployment.instances, *(() if scope else deployment.externals)):
+        if instance.group == scope:
+            position[id(instance)] = len(nodes)
+            nodes.append(_instance(instance, site))
+        elif instance.group.startswith(f"{scope}-" if scope else ""):
+            inner = instance.group.removeprefix(f"{scope}-" if scope else "").partition("-")[0]
+            name = f"{scope}-{inner}" if scope else inner
+            if name not in of_group:
+                of_group[name] = len(nodes)
+                nodes.append(_group(groups[name], site.page(deployment)))
+            position[id(instance)] = of_group[name]
+    return nodes, position
+
+
+def _group(group: Group, page: str) -> GraphNode:
+    kind = f"{group.definition}, " if group.definition else "group, "
+    process = ", one process" if group.inprocess else ""
+    subtitle = f"{kind}{len(group.instances)} components{process}"
+    tooltip = f"{group.name}: {', '.join(group.instances)}"
+    return GraphNode(group.name, "group", Target(page, "groups"), subtitle, tooltip, 2.0)
 
 
 def _instance(instance: Instance, site: DocumentationSite) -> GraphNode:

@@ -43,9 +43,9 @@ class GroupSupervision:
 
     def _combined(self) -> tuple[str, str]:
         """The state that is furthest from `compute`, and its reason with the member's name."""
-        for wanted in ("finalize", "initialize", "emergency", "restore"):
+        for priority in ("finalize", "initialize", "emergency", "restore"):
             for name, (state, reason) in self._latest.items():
-                if state == wanted:
+                if state == priority:
                     return state, f"{name}: {reason}" if reason else name
         return "compute", ""
 

@@ -15,7 +15,7 @@ from robocomp_dsl.runtime.component.thread_context import (
 )
 from robocomp_dsl.runtime.entry_point import on_signals
 from robocomp_dsl.runtime.group_process.arguments import parse_arguments
-from robocomp_dsl.runtime.group_process.group import Group
+from robocomp_dsl.runtime.group_process.running_group import RunningGroup
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -29,7 +29,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     logs.set_up(arguments.name, arguments.log_level, arguments.log_format, component_of)
     inherit_contexts()
-    group = Group(arguments)
+    group = RunningGroup(arguments)
     on_signals(group.stop)
     code = group.run()
     if group.abandoned:

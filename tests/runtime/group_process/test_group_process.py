@@ -111,6 +111,17 @@ def test_group_process_goes_on_without_a_member_that_has_ended(folder: Path) -> 
     assert group.has("left-arm | arm finalizes")
 
 
+def test_group_process_ends_when_a_member_hangs(folder: Path) -> None:
+    text = (folder / "eye" / "specificworker.py").read_text()
+    hanging = f"{text}\n    def compute(self):\n        time.sleep(100)\n"
+    (folder / "eye" / "specificworker.py").write_text(hanging)
+    with start_group(folder, eye=(*EYE_OPTIONS, "--watchdog", "0.3")) as group:
+        assert group.end() == 1
+    assert group.has("left-eye | error: watchdog: compute has hung for")
+    assert group.has("left-eye failed; the group left ends with it")
+    assert group.has("left-arm | arm finalizes")
+
+
 @pytest.mark.parametrize(
     ("file", "text", "message"),
     [

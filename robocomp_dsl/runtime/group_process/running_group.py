@@ -14,8 +14,8 @@ from queue import SimpleQueue
 from robocomp_dsl.runtime.component.sd_notify import SystemdNotifier
 from robocomp_dsl.runtime.component.supervisor_pipe import SupervisorPipe
 from robocomp_dsl.runtime.group_process.arguments import GroupArguments
+from robocomp_dsl.runtime.group_process.group_member import GroupMember
 from robocomp_dsl.runtime.group_process.group_supervision import GroupSupervision
-from robocomp_dsl.runtime.group_process.member import Member
 
 STOP_TIMEOUT_S = 4.8
 """Time for all members to end; below the grace period of rcdeploy."""
@@ -24,13 +24,13 @@ ORDER_TIMEOUT_S = 2.0
 log = logging.getLogger("robocomp")
 
 
-class Group:
+class RunningGroup:
     """The members of one process; `stop` may be called from any thread."""
 
     def __init__(self, arguments: GroupArguments) -> None:
         self.name = arguments.name
-        self._events: SimpleQueue[Member | None] = SimpleQueue()
-        self._members = [Member(each, self._events.put) for each in arguments.members]
+        self._events: SimpleQueue[GroupMember | None] = SimpleQueue()
+        self._members = [GroupMember(each, self._events.put) for each in arguments.members]
         names = [member.name for member in self._members]
         self._supervision = GroupSupervision(names, SystemdNotifier(), SupervisorPipe())
         self._is_stopping = False
@@ -60,7 +60,7 @@ class Group:
         self._handle_events()
         return 1 if self.failed else 0
 
-    def _on_ready(self, member: Member) -> Callable[[], None]:
+    def _on_ready(self, member: GroupMember) -> Callable[[], None]:
         def on_ready() -> None:
             if not member.ready.is_set():
                 member.ready.set()
@@ -79,7 +79,7 @@ class Group:
         while not self._events.empty():
             self._handle(self._events.get())
 
-    def _handle(self, ended: Member | None) -> None:
+    def _handle(self, ended: GroupMember | None) -> None:
         if ended is not None:
             self._supervision.ended(ended.name)
             if not ended.failed:
@@ -92,7 +92,7 @@ class Group:
             self._is_stopping = True
             self._stop_members()
 
-    def _on_ended(self, member: Member) -> None:
+    def _on_ended(self, member: GroupMember) -> None:
         """A member that ended by itself has been ready for those after it."""
         member.ready.set()
         self._start_next()

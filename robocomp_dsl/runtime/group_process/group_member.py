@@ -23,10 +23,10 @@ WORKER_CLASS = "SpecificWorker"
 log = logging.getLogger("robocomp")
 
 
-class Member:
+class GroupMember:
     """One component. `loaded`: it waits for `start`, or has failed; `ready`: it computes."""
 
-    def __init__(self, arguments: MemberArguments, on_ended: Callable[[Member], None]) -> None:
+    def __init__(self, arguments: MemberArguments, on_ended: Callable[[GroupMember], None]) -> None:
         self.name = arguments.name
         self.after = arguments.after
         self.loaded = threading.Event()

@@ -1,0 +1,1 @@
+"""Describes a deployment for other systems: systemd, compose and Kubernetes."""
