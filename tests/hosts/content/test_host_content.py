@@ -2,35 +2,17 @@
 
 from __future__ import annotations
 
-import asyncio
 import os
 import re
-from collections.abc import Awaitable, Callable
 from pathlib import Path
-from typing import TypeVar
 
 import pytest
 
-from robocomp_dsl.deploy.content.describe import describe_trees
-from robocomp_dsl.deploy.content.host_content import (
-    ContentCheck,
-    HostContent,
-    check_content,
-    copy_content,
-    describe_content,
-)
-from robocomp_dsl.deploy.content.lock import EnvironmentLocker
-from robocomp_dsl.deploy.content.transfer import CopyResult
-from robocomp_dsl.deploy.content.wheel_target import choose_target
-from robocomp_dsl.deploy.hosts.connection import HostConnection, connect
-from robocomp_dsl.deploy.hosts.host_facts import fetch_facts
-from robocomp_dsl.diagnostics import Diagnostic, Report
-from robocomp_dsl.model.deployment import Host
 from tests.deploy.content.workspace_files import ROOT, check, write_component
+from tests.hosts.content.deployed_content import DeployedContent
 from tests.hosts.rig.hosts import Hosts
 from tests.hosts.rig.machine import SimulatedHost
 
-Result = TypeVar("Result")
 APP = 'import "arm/arm.cdsl";\nDeployment app { component arm; };\n'
 MAIN = "import numpy, zenoh, yaml\nimport robocomp_dsl.runtime\nprint('ready', numpy.zeros(3))\n"
 DISK_BYTES = 1_000_000_000
@@ -51,62 +33,19 @@ def caches(operator: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(operator.parent / "cache"))
 
 
-def with_connection(
-    robot: SimulatedHost, work: Callable[[HostConnection], Awaitable[Result]]
-) -> Result:
-    async def run() -> Result:
-        connection = await connect(Host("robot", robot.address, robot.user))
-        try:
-            return await work(connection)
-        finally:
-            await connection.close()
-
-    return asyncio.run(run())
-
-
-class Deployed:
-    """A deployment of `arm` to a host, step by step."""
+class Deployed(DeployedContent):
+    """A deployment of `arm` to a host."""
 
     def __init__(self, robot: SimulatedHost, folder: Path, **files: str) -> None:
-        self.robot = robot
         write_component(folder, "arm", {**ARM_FILES, **files})
-        self.deployment, self.plan = check(folder / "app.ddsl", APP)
-        self.report = Report()
-
-    @property
-    def findings(self) -> list[Diagnostic]:
-        return self.report.sorted()
-
-    def check(self) -> ContentCheck:
-        return with_connection(self.robot, self._check)
-
-    def up(self) -> CopyResult:
-        async def work(connection: HostConnection) -> CopyResult:
-            check = await self._check(connection)
-            assert not self.report.has_errors, [str(f.message) for f in self.findings]
-            return await copy_content(connection, check)
-
-        return with_connection(self.robot, work)
+        super().__init__(robot, *check(folder / "app.ddsl", APP))
 
     def run(self) -> str:
         """The output of the component on the host."""
-        content = self.content
-        tree = content.trees["arm"]
-        python = f"{self.robot.home_path}/{content.python_of('arm')}"
+        tree = self.content.trees["arm"]
+        python = f"{self.robot.home_path}/{self.content.python_of('arm')}"
         folder = f"{self.robot.home_path}/{ROOT}/trees/{tree.hash}/{tree.working_folder}"
         return str(self.robot.run([python, f"{folder}/main.py"]).stdout)
-
-    async def _check(self, connection: HostConnection) -> ContentCheck:
-        facts = await fetch_facts(connection)
-        target = choose_target(facts)
-        assert target is not None
-        trees = describe_trees(self.deployment, self.plan, self.report)
-        locker = EnvironmentLocker(self.deployment, self.plan, target, self.report)
-        span = self.deployment.span
-        self.content: HostContent = describe_content(
-            ROOT, target, self.plan.processes, trees, locker, span
-        )
-        return await check_content(connection, self.content, span, self.report)
 
 
 @pytest.fixture
