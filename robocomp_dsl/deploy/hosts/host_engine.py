@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 from robocomp_dsl.deploy import status
 from robocomp_dsl.deploy.engine import DeploymentStatus, EngineError, StopResult
 from robocomp_dsl.deploy.hosts import registry
+from robocomp_dsl.deploy.hosts.denials import latest_denials
 from robocomp_dsl.deploy.hosts.description import all_components
 from robocomp_dsl.deploy.hosts.differences import stored_manifest
 from robocomp_dsl.deploy.hosts.errors import HostError
@@ -97,8 +98,10 @@ class HostEngine:
     async def _status(self) -> DeploymentStatus:
         async with self._fleet(STATUS_TIMEOUT_S) as fleet:
             reports = await fleet.reports(usage=True)
+            denials = await latest_denials(fleet, reports)
         order = {name: i for i, name in enumerate(self.components())}
         rows = [row for report in reports.values() for row in host_rows(report)]
+        rows = [replace(row, note=row.note or denials.get(row.name, "")) for row in rows]
         for host in fleet.failures:
             rows += [
                 ProcessStatus(name, status.UNKNOWN, note="its host does not answer", host=host)
