@@ -188,5 +188,6 @@ def describe_loss(host: Host, check: HostKeyCheck, error: Exception) -> HostErro
     """The error of an operation on an open connection, which may have ended."""
     name = describe_host(host)
     if isinstance(error, asyncssh.ChannelOpenError) and "closed" not in error.reason:
-        return HostRefused(f"{name}: the SSH server refuses a session: {error.reason}")
+        remedy = "allow more sessions: `MaxSessions` in /etc/ssh/sshd_config of the host"
+        return HostRefused(f"{name}: the SSH server refuses a session: {error.reason}", remedy)
     return HostUnreachable(f"{name}: the connection was lost: {check.lost or error}")
