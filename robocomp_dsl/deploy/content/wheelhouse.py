@@ -215,7 +215,8 @@ def _no_wheel(locked: LockedDistribution, python: WheelTarget, reason: str) -> R
         help_text = "connect this machine to the package index once; wheels stay in the cache"
         return RequirementProblem(str(locked), message, help_text)
     message = f"there is no wheel of {locked} for {host}"
-    help_text = f"install a version here that has one, or use Python {_own_minor()} on the host"
+    other = f"Python {_own_minor()}" if python.glibc else "a system with glibc, such as Debian,"
+    help_text = f"install a version here that has one, or use {other} on the host"
     return RequirementProblem(str(locked), message, help_text)
 
 
