@@ -111,19 +111,20 @@ def test_host_content_installs_without_internet_and_copies_differences(
     robot: SimulatedHost, tmp_path: Path
 ) -> None:
     import time
+
     app = Deployed(robot, tmp_path)
-    t=time.time()
+    t = time.time()
     first = app.up()
-    print("first", time.time()-t, first)
+    print("first", time.time() - t, first)
     assert first.trees == 1
     assert first.bytes > 20_000_000
     assert app.run().startswith("ready [0. 0. 0.]")
-    t=time.time()
+    t = time.time()
     assert app.check().is_complete
-    print("second", time.time()-t)
+    print("second", time.time() - t)
     (tmp_path / "arm/etc/config.yaml").write_text("rate: 21\n")
-    t=time.time()
+    t = time.time()
     changed = app.up()
-    print("changed", time.time()-t, changed)
+    print("changed", time.time() - t, changed)
     assert (changed.files, changed.bytes, changed.trees) == (1, len("rate: 21\n"), 1)
     assert app.run().startswith("ready")

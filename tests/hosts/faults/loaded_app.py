@@ -19,9 +19,7 @@ from tests.support.waiting import wait_until
 
 UNDER_LOAD = ("ledger", "caller", "source", "sink")
 KILL = (
-    "import os, sys, time\n"
-    "print(time.monotonic())\n"
-    "for pid in sys.argv[1:]: os.kill(int(pid), 9)\n"
+    "import os, sys, time\nprint(time.monotonic())\nfor pid in sys.argv[1:]: os.kill(int(pid), 9)\n"
 )
 LOOK_S = 0.1
 PROPERTIES = "MainPID,ActiveState,SubState,Result,NRestarts,ActiveEnterTimestampMonotonic"
