@@ -18,7 +18,6 @@ from tests.hosts.faults.loaded_app import LoadedApp, make_loaded_app
 from tests.hosts.rig.hosts import Hosts
 from tests.hosts.rig.namespaces import TestNetwork
 
-
 DISK_BYTES = 2_000_000_000
 """The size of the home of `robot`."""
 
