@@ -91,15 +91,14 @@ class LoadedApp(HostedApp):
         The time is that of systemd. Looking seldom leaves the processors to the components.
         """
 
-        def is_ready() -> Unit | None:
+        def ready_time() -> float:
             unit = self.unit(component)
             if unit.active == "active" and unit.ready_at > since:
-                return unit
+                return unit.ready_at
             time.sleep(LOOK_S)
-            return None
+            return 0.0
 
-        unit = wait_until(is_ready, lambda: f"{component}: {self.unit(component)}")
-        return unit.ready_at - since
+        return wait_until(ready_time, lambda: f"{component}: {self.unit(component)}") - since
 
     def journal(self, component: str, name: str) -> list[tuple[str, int, float]]:
         """The lines of a journal: process, number, time."""
