@@ -149,9 +149,10 @@ def test_full_disk_is_reported_before_anything_changes(
             assert "nothing was changed" in run.output
             assert "Traceback" not in run.output
         assert app.unit_pids() == before
-        # The journals cannot be written, but the components answer and restart.
         killed = app.kill("sink")
-        app.ready_again("sink", killed)
+        restarted = killed + app.ready_again("sink", killed)
+        app.first_after("sink", "received", restarted)
+        app.first_after("caller", "acknowledged", restarted)
         assert app.row("ledger").state == "ready"
     finally:
         robot.limit_disk(1_000_000_000)
