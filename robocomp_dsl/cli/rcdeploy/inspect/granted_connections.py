@@ -15,11 +15,16 @@ if TYPE_CHECKING:
     from robocomp_dsl.cli.rcdeploy.inspect.target import DomainTarget
 
 
-def grant_connection(target: DomainTarget, ends: ConnectionEnds) -> None:
-    """Allow the connection in the rules of all routers. Raises `CliError`."""
+def has_routers(target: DomainTarget) -> bool:
+    """Whether the deployment is on several hosts."""
     from robocomp_dsl.deploy.supervisor_engine import SupervisorEngine  # noqa: PLC0415
 
-    if target.engine is None or isinstance(target.engine, SupervisorEngine):
+    return target.engine is not None and not isinstance(target.engine, SupervisorEngine)
+
+
+def grant_connection(target: DomainTarget, ends: ConnectionEnds) -> None:
+    """Allow the connection in the rules of all routers. Raises `CliError`."""
+    if not has_routers(target):
         return
     from robocomp_dsl.deploy.hosts.access_changes import CannotGrant, grant  # noqa: PLC0415 - loads asyncssh
     from robocomp_dsl.deploy.hosts.host_engine import HostEngine  # noqa: PLC0415
