@@ -94,14 +94,14 @@ def test_topic_channel_on_several_middlewares_counts_publication_once() -> None:
 
 
 def test_topic_channel_publishes_where_somebody_subscribes() -> None:
-    domain, received, opened = f"test-{uuid.uuid4().hex[:12]}", [], []
+    domain, received = f"test-{uuid.uuid4().hex[:12]}", []
+    opened: list[Any] = []
     contexts = {
         name: ComponentContext(name, domain, CallbackGroup(), Statistics())
         for name in ("speaker", "near", "far")
     }
     try:
-        for context in contexts.values():
-            opened.append(open_ports("zenoh", context))
+        opened += [open_ports("zenoh", context) for context in contexts.values()]
         speaker, near, far = opened
         at = Endpoint(NEWS, "speaker", "News", middlewares=("inproc", "zenoh"))
         channel = speaker.advertise(at)
