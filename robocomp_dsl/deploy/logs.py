@@ -124,13 +124,17 @@ def _structured_record(component: str, fields: Mapping[str, Any], now: float) ->
     return LogRecord(at, component, level, text, stream if stream in STREAMS else "log")
 
 
-def parse_line(component: str, text: str, time: float, stream: str) -> LogRecord:
-    """A stored line: a JSON line with its own time, or any text, at `time` [s since 1970]."""
+def parse_line(component: str, text: str, time: float, members: Collection[str] = ()) -> LogRecord:
+    """A stored line: a JSON line with its own time, or any text, at `time` [s since 1970].
+
+    `members` are the components of a group in one process, whose lines have their names.
+    """
     fields = _parse_object(text) if text.startswith("{") else {}
     if "message" not in fields or "level" not in fields:
-        return LogRecord(time, component, "", text, stream)
-    logged = fields.get("time")
-    return _structured_record(component, fields, logged if isinstance(logged, float) else time)
+        return LogRecord(time, component, "", text, "stdout")
+    logged, member = fields.get("time"), str(fields.get("component"))
+    owner = member if member in members else component
+    return _structured_record(owner, fields, logged if isinstance(logged, float) else time)
 
 
 def format_record(record: LogRecord, width: int, *, colours: bool) -> str:

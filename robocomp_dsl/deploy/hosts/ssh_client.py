@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from robocomp_dsl.deploy.hosts import codes, known_hosts
 from robocomp_dsl.deploy.hosts.address import describe_host, ssh_arguments
-from robocomp_dsl.deploy.hosts.errors import HostError, HostRefused, HostUnreachable
+from robocomp_dsl.deploy.hosts.errors import ANY_FILE, HostError, HostRefused, HostUnreachable
 from robocomp_dsl.extras import MissingExtra
 from robocomp_dsl.model.deployment import Host
 
@@ -161,7 +161,7 @@ def _login_error(name: str, host: Host) -> HostRefused:
 
 
 def _host_key_error(name: str, host: Host, check: HostKeyCheck, error: Exception) -> HostRefused:
-    trust = f"rcdeploy hosts trust APP.ddsl {host.name}"
+    trust = f"rcdeploy hosts trust {ANY_FILE} {host.name}"
     revoked = [key for key in check.known if key.kind == known_hosts.REVOKED]
     pinned = [key for key in check.known if not key.kind]
     shown = check.presented
@@ -182,3 +182,11 @@ def _host_key_error(name: str, host: Host, check: HostKeyCheck, error: Exception
         return HostRefused(f"{name}: {error}", "", codes.UNKNOWN_KEY)
     message = f"{name}: its host key is not confirmed yet:{text}"
     return HostRefused(message, f"compare and confirm it: `{trust}`", codes.UNKNOWN_KEY)
+
+
+def describe_loss(host: Host, check: HostKeyCheck, error: Exception) -> HostError:
+    """The error of an operation on an open connection, which may have ended."""
+    name = describe_host(host)
+    if isinstance(error, asyncssh.ChannelOpenError) and "closed" not in error.reason:
+        return HostRefused(f"{name}: the SSH server refuses a session: {error.reason}")
+    return HostUnreachable(f"{name}: the connection was lost: {check.lost or error}")

@@ -100,6 +100,11 @@ def access_rules(
     return AccessRules(domain, components, (OPERATOR, *routers))
 
 
+def component_grants(domain: str, component: str, uses: Iterable[PortUse]) -> Iterator[Grant]:
+    """What a component may do that uses its ports in these ways."""
+    return _Keys(domain, component).grants(uses)
+
+
 def _access(
     domain: str, name: str, members: Iterable[tuple[str, tuple[PortUse, ...]]]
 ) -> ComponentAccess:
@@ -108,7 +113,7 @@ def _access(
     grants: dict[Grant, None] = {}
     for member, own in members:
         uses |= dict.fromkeys(own)
-        grants |= dict.fromkeys(_Keys(domain, member).grants(own))
+        grants |= dict.fromkeys(component_grants(domain, member, own))
     return ComponentAccess(name, tuple(uses), tuple(grants))
 
 

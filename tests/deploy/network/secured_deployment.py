@@ -63,6 +63,16 @@ Component worker
     parameters "worker.pdsl";
 };
 """
+TICKER = """
+import "Tasks.idsl";
+import "Clock.idsl";
+Component ticker
+{
+    Communications { implements Job; publishes News, State, Clock; };
+    language Python;
+    period 10;
+};
+"""
 PARAMETERS = "ComponentParams worker { gain int 1 0:100 live; };\n"
 BOSS_CODE = """
 from boss_generated.genericworker import GenericWorker
@@ -113,6 +123,21 @@ Deployment site
     component boss on left;
     connect worker.News -> boss.News {{ reliable; liveliness 1 s; }};
     connect worker.State -> boss.State {{ latched; }};
+}};
+"""
+
+
+CLOCK_APP = """
+import "boss/boss.cdsl";
+import "ticker/ticker.cdsl";
+Deployment timed
+{{
+    host left {{ address "127.0.0.2:22"; port {left}; }};
+    host right {{ address "127.0.0.3:22"; port {right}; }};
+    component ticker on right;
+    component boss on left {{ prefix lab; }};
+    clock sim from ticker CLOCK_KIND;
+    CONNECTION
 }};
 """
 
