@@ -35,6 +35,13 @@ def calls(folder: Path) -> int:
     return len(path.read_text().splitlines()) if path.exists() else 0
 
 
+def fill_up(path: Path) -> None:
+    """Write until an error ends it."""
+    with path.open("wb", buffering=0) as stream:
+        while True:
+            stream.write(bytes(4096))
+
+
 @pytest.mark.skipif(FAKETIME is None, reason="the Debian package faketime is not installed")
 def test_clock_set_one_hour_off_ends_nothing(folder: Path) -> None:
     file = folder / "clock"
@@ -79,10 +86,8 @@ def test_full_disk_under_logs_ends_nothing(folder: Path, tmp_path: Path) -> None
     try:
         wait_until(lambda: "components are ready" in log.read_text(), "all are ready", 60)
         inside = Path(f"/proc/{process.pid}/root{state}")
-        with pytest.raises(OSError, match="No space left"), (inside / "fill").open("wb") as fill:
-            while True:
-                fill.write(bytes(4096))
-                fill.flush()
+        with pytest.raises(OSError, match="No space left"):
+            fill_up(inside / "fill")
         before = calls(folder)
         wait_until(lambda: calls(folder) > before + 100, "calls go on")
         assert process.poll() is None
