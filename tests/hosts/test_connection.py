@@ -17,6 +17,7 @@ from robocomp_dsl.deploy.hosts.errors import (
 from tests.hosts.connections import host_of, run
 from tests.hosts.rig.hosts import Hosts
 from tests.hosts.rig.machine import SimulatedHost
+from tests.support.waiting import wait_until
 
 NOISY = """\
 import sys
@@ -56,7 +57,9 @@ def test_connection_runs_commands(robot: SimulatedHost) -> None:
         manager = await connection.run(["systemctl", "--user", "is-system-running"])
         assert manager.text == "running", manager.error
         with pytest.raises(HostTimeout, match=r"`sleep` did not end within 0\.2 s"):
-            await connection.run(["sleep", "60"], timeout_s=0.2)
+            await connection.run(["sleep", "987"], timeout_s=0.2)
+        ended = ["pgrep", "-f", "^sleep 987"]
+        wait_until(lambda: robot.run(ended, check=False).returncode, "the command goes on")
         results = await asyncio.gather(*(connection.run(["echo", str(n)]) for n in range(20)))
         assert [result.text for result in results] == [str(n) for n in range(20)]
         await connection.close()

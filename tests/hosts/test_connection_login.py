@@ -76,6 +76,17 @@ def test_connection_without_sftp_says_how_to_enable_it(robot: SimulatedHost) -> 
         robot.write_sshd_config()
 
 
+def test_connection_reports_old_servers(robot: SimulatedHost) -> None:
+    robot.write_sshd_config(["KexAlgorithms diffie-hellman-group1-sha1"])
+    try:
+        error = failure(host_of(robot))
+    finally:
+        robot.write_sshd_config()
+    # Keys of the host are confirmed; their kinds are not the reason.
+    assert "there is no SSH algorithm in common" in str(error)
+    assert error.code.id == "RC831"
+
+
 def test_connection_follows_ssh_config(robot: SimulatedHost, operator: Path) -> None:
     """An alias with address, port, user and key; settings that weaken host keys do not count."""
     robot.write_sshd_config(["Port 2200"])
@@ -143,6 +154,12 @@ def test_connection_goes_through_a_jump_host(
 
     try:
         assert run(session()).split()[0] == jump.address
+        known = operator / ".ssh/known_hosts"
+        lines = known.read_text("utf-8").splitlines(keepends=True)
+        known.write_text("".join(line for line in lines if jump.address not in line), "utf-8")
+        error = failure(Host("robot", "robot", "robot"))
+        assert "the jump host of ~/.ssh/config cannot be used: Host key" in str(error)
+        assert error.help == "try `ssh robot@robot`"
     finally:
         config.unlink()
 

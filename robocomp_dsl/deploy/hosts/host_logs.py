@@ -124,13 +124,15 @@ class _Frames:
 
     async def next_head(self) -> dict[str, Any]:
         """The next JSON line; empty at the end."""
-        while (end := self._buffer.find(b"\n")) < 0:
-            if not await self._fill():
-                return {}
-        line = bytes(self._buffer[:end])
-        del self._buffer[: end + 1]
-        head = json.loads(line)
-        return head if isinstance(head, dict) else {}
+        line = b""
+        while not line.startswith(b"{"):  # a login script may print something
+            while (end := self._buffer.find(b"\n")) < 0:
+                if not await self._fill():
+                    return {}
+            line = bytes(self._buffer[:end])
+            del self._buffer[: end + 1]
+        head: dict[str, Any] = json.loads(line)
+        return head
 
     async def take(self, length: int) -> bytes:
         """The next `length` bytes. Raises `HostUnreachable` if they do not come."""

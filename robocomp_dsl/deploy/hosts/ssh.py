@@ -113,6 +113,8 @@ class SshConnection:
                 async with asyncio.timeout(timeout_s):
                     return await self.wait_for(process, input)
             except TimeoutError:
+                with contextlib.suppress(OSError, asyncssh.Error):
+                    process.terminate()
                 name = describe_host(self.host)
                 text = f"{name}: `{command[0]}` did not end within {timeout_s:g} s"
                 raise HostTimeout(text, "check the load of the host") from None

@@ -22,7 +22,8 @@ APP = """
 
 @pytest.fixture(scope="module")
 def app(module_hosts: Hosts, tmp_path_factory: pytest.TempPathFactory) -> HostedApp:
-    module_hosts.start("robot")
+    robot = module_hosts.start("robot")
+    robot.run(["tee", ".bashrc"], input="echo Welcome to the robot\n")
     return make_app(tmp_path_factory.mktemp("deployment") / "app", module_hosts)
 
 

@@ -158,7 +158,9 @@ def test_followed_logs_have_no_gap_after_link_cut(
     log = root_of(deployed) / names.log_file("source")
     before = deployed.unit_pids()
     with RcdeployRun("logs", deployed.name, "--component", "source", "--follow") as run:
-        wait_until(lambda: len(numbers(run.output)) > 50, lambda: f"nothing is followed: {run.output}")
+        wait_until(
+            lambda: len(numbers(run.output)) > 50, lambda: f"nothing is followed: {run.output}"
+        )
         robot.cut_link()
         cut = time.monotonic()
         known = len(numbers(run.output))
