@@ -171,6 +171,7 @@ def test_fact_script_tolerates_missing_programs(monkeypatch: pytest.MonkeyPatch)
 
 def test_host_facts_are_fetched_from_this_machine(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}:/bin")
+
     async def fetch() -> HostFacts:
         return await fetch_facts(await connect(Host("here", "localhost")), "app")
 
