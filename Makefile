@@ -50,6 +50,7 @@ highlight: $(READY)
 # Install the programs that tests use besides Python: editors, and the Slice compiler.
 test-tools: $(READY)
 	editors/install-test-tools.sh $(CURDIR)/$(BIN)/python
+	$(BIN)/pip install -q --disable-pip-version-check kubernetes-validate
 
 test-editors: test-tools
 	$(BIN)/python -m pytest -q -m editors tests/editors

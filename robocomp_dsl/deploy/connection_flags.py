@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from robocomp_dsl.deploy.host_middlewares import usable_middlewares
 from robocomp_dsl.model.component import Port, Role
 from robocomp_dsl.model.deployment import Connection, Deployment, External, Instance, Monitor, Qos
 from robocomp_dsl.model.port_middlewares import port_middlewares
@@ -30,7 +31,8 @@ def middleware_flags(
         chosen = deployment.middleware
     flags = ["--middleware", chosen] if chosen else []
     for port in component.ports:
-        names = port_middlewares(instance, port, connections, deployment.middleware)
+        named = port_middlewares(instance, port, connections, deployment.middleware)
+        names = usable_middlewares(instance, port, named, connections)
         without_flag = port.middlewares or (chosen or component.middleware,)
         if names != without_flag:
             flags += ["--middleware", f"{port.name}={','.join(names)}"]

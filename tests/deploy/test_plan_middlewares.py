@@ -284,3 +284,29 @@ def test_plan_passes_conditions_of_arbitration_to_receiver(tmp_path: Path) -> No
         ("explorer.LaserPub", "receiver", "! seen"),
     ]
     assert entries[1]["monitors"] == []
+
+
+def test_port_with_peer_on_other_host_uses_middlewares_that_connect_hosts(tmp_path: Path) -> None:
+    for name, ports in (
+        ("both", "implements Laser(local, zenoh); publishes LaserPub(local, zenoh);"),
+        ("user", "requires Laser(local, zenoh); subscribesTo LaserPub(local, zenoh);"),
+    ):
+        (tmp_path / f"{name}.cdsl").write_text(
+            'import "Laser.idsl"; import "LaserPub.idsl";\n'
+            f"Component {name} {{ Communications {{ {ports} }}; language Python; }};\n"
+        )
+    path = tmp_path / "app.ddsl"
+    path.write_text(
+        'import "both.cdsl"; import "user.cdsl";\nDeployment app\n{\n'
+        '    host robot { address "10.0.0.2"; };\n    component both on robot;\n'
+        "    component near : user on robot;\n    component far : user;\n};\n"
+    )
+    report = Report()
+    deployment = check_ddsl(path, Workspace(environ={}), report)
+    assert deployment is not None
+    assert not report.has_errors
+    argv = {process.name: process.argv for process in plan_of(deployment).processes}
+    assert "Laser=zenoh" in argv["far"]
+    assert "LaserPub=zenoh" in argv["far"]
+    for name in ("near", "both"):
+        assert not [word for word in argv[name] if word.endswith("=zenoh")]

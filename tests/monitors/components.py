@@ -73,6 +73,14 @@ class Deployment:
         self._settings = RunSettings(domain=f"test-{uuid.uuid4().hex[:12]}", middleware=middleware)
         self._runners: list[Runner] = []
 
+    @property
+    def domain(self) -> str:
+        return self._settings.domain
+
+    @property
+    def middleware(self) -> str:
+        return self._settings.middleware
+
     def write(self, text: str) -> None:
         self.file.write_text(HEADER + dedent(text))
 

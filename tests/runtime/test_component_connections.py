@@ -80,6 +80,15 @@ class Sink(Component):
         return {who for who, _ in self.received[-last:]}
 
 
+class Speaker(Component):
+    """Publishes when the test does it."""
+
+    SPEC = ComponentSpec(
+        name="speaker", period=0, publishes=(CalledPort("News", NewsProxy, "news_proxy"),)
+    )
+    news_proxy: NewsProxy
+
+
 class Deployment:
     """Two sources `a` and `b`, and a sink that is connected to `a`."""
 
@@ -269,12 +278,33 @@ def test_wrong_requests_are_refused(call: tuple[str, ...], text: str) -> None:
         assert [(i.port, i.peer, i.qos) for i in deployment.list("sink").values()] == before
         with pytest.raises(Refusal, match="change it there"):
             deployment.connections("a").connect("News", "/sink.News", "")
-        with pytest.raises(Refusal, match="fixed when it starts"):
-            deployment.connections("a").setQos("News", "", "latched")
         with pytest.raises(Refusal, match="only `thread_priority`"):
             deployment.connections("a").setQos("Probe", "", "depth=2")
     finally:
         deployment.close()
+
+
+def test_publisher_becomes_latched_and_not_latched_while_it_runs(deployment: Deployment) -> None:
+    speaker: Any = deployment.start(Speaker).worker
+    connections = deployment.connections("speaker")
+    speaker.news_proxy.announced("speaker", 1)
+    assert connections.setQos("News", "", "latched") == "latched"
+    speaker.news_proxy.announced("speaker", 2)
+    peers = {"News": ("speaker",), "Probe": ("a",)}
+    qos = {"News": Qos(latched=True)}
+    late: Any = deployment.start(Sink, name="late", connections=peers, qos=qos).worker
+    wait_until(lambda: late.received == [("speaker", 2)], "the latest message arrives")
+    assert connections.setQos("News", "", "latched=off") == ""
+    speaker.news_proxy.announced("speaker", 3)
+    later: Any = deployment.start(Sink, name="later", connections=peers, qos=qos).worker
+    numbers = iter(range(4, 10_000))
+
+    def is_received() -> bool:
+        speaker.news_proxy.announced("speaker", next(numbers))
+        return bool(later.received)
+
+    wait_until(is_received, "a message arrives")
+    assert min(number for _, number in later.received) > 3
 
 
 def test_unsupported_qos_prevents_the_start() -> None:

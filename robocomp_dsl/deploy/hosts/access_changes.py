@@ -111,13 +111,8 @@ async def _grant(
             file = files[agent.host.name]
             await _write_json(agent, f"{_private(entry.name)}/{GRANTED}", listed)
             await _write_json(agent, file.path, {**file.data, "access": access})
-            unit = names.router_name(entry.name)
-            command = ["systemctl", "--user", "kill", "--kill-who=main", "--signal=HUP", unit]
-            result = await agent.connection.run(command)
-            if result.code:
-                reason = result.stderr.decode(errors="replace").strip()
-                text = f"{agent.host.name}: the router does not read its settings: {reason}"
-                raise HostError(text)
+            # It copies the settings of its version to the file that the router reads.
+            await agent.systemctl("reload", [names.router_name(entry.name)])
 
         await fleet.each(write)
         raise_failures(fleet)

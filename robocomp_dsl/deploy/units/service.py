@@ -18,7 +18,9 @@ from robocomp_dsl.deploy.units.quoting import argument, assignment, command_line
 from robocomp_dsl.model.deployment import Readiness
 
 REVISION_VARIABLE = "ROBOCOMP_UNIT"
-RESTART_DELAY_S = 0.1
+RESTART_DELAY_S = 0.0
+"""0 restarts at once; any other delay lasts up to 0.25 s longer, the accuracy of systemd's timers.
+The start limit ends a crash loop."""
 GRACE_S = 5.0
 """Time between SIGTERM and SIGKILL; the runtime ends a component within 4.5 s."""
 MARGIN = 0.5

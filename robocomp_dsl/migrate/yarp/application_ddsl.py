@@ -10,7 +10,12 @@ from collections.abc import Iterator
 
 from robocomp_dsl.generate.literals import printable, quoted
 from robocomp_dsl.migrate.yarp.application import Application
-from robocomp_dsl.migrate.yarp.programs import ApplicationDraft, ConnectionDraft, ProgramDraft
+from robocomp_dsl.migrate.yarp.programs import (
+    ApplicationDraft,
+    ConnectionDraft,
+    HostDraft,
+    ProgramDraft,
+)
 
 STEP = "    "
 
@@ -19,10 +24,7 @@ def application_text(name: str, draft: ApplicationDraft) -> str:
     """The DDSL file of an application."""
     rows = ["/**", *(f" * {row}" for row in _description(draft.application)), " */"]
     rows += [f"Deployment {name}", "{"]
-    rows += [
-        f"{STEP}host {host} {{ address {quoted(address)}; }};"
-        for host, address in draft.hosts.items()
-    ]
+    rows += [_host(host) for host in draft.hosts.values()]
     rows += [""] if draft.hosts else []
     for program in draft.programs:
         rows += _program(program)
@@ -40,6 +42,13 @@ def _description(application: Application) -> Iterator[str]:
         yield f"Version {printable(application.version).replace('*/', '* /')}"
 
 
+def _host(host: HostDraft) -> str:
+    if not host.address:
+        return f"{STEP}host {host.name};"
+    user = f" user {quoted(host.user)};" if host.user else ""
+    return f"{STEP}host {host.name} {{ address {quoted(host.address)};{user} }};"
+
+
 def _program(program: ProgramDraft) -> Iterator[str]:
     place = f" on {program.node}" if program.node else ""
     yield f"{STEP}program {program.name}{place}"
@@ -47,6 +56,8 @@ def _program(program: ProgramDraft) -> Iterator[str]:
     yield f"{STEP * 2}executable {quoted(program.command)};"
     for key, value in program.environment:
         yield f"{STEP * 2}env {key} = {quoted(value)};"
+    if program.by_load:
+        yield f"{STEP * 2}place by load;"
     yield f"{STEP * 2}ready after {program.ready_s:g} s;"
     yield f"{STEP}}};"
 

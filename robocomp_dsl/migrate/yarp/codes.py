@@ -26,10 +26,11 @@ REMOTE_NODE = Code(
     "RC978",
     Severity.WARNING,
     "modules run on another machine",
-    """yarpmanager starts them through `yarprun --server`. `rcdeploy` starts processes on its own
-machine only; the file names the machine with `on`, and `rcdeploy plan` shows it. To run them here,
-delete `on …`. To run them there, keep `yarprun` for them, and leave them out of the deployment: the
-connections of their ports are still made.""",
+    """yarpmanager starts them through `yarprun --server`; `rcdeploy` starts them through ssh and
+systemd: the host needs an ssh server that accepts your key, and a user manager. Show its key with
+`rcdeploy hosts trust`, make the keys of the deployment with `rcdeploy keys`. To run a program here,
+delete `on …`. A list of machines (`<cluster>`, `<resources>`) gives addresses and users; name it
+beside the application.""",
 )
 
 SETTING_DROPPED = Code(
@@ -44,7 +45,8 @@ SETTING_NOT_NEEDED = Code(
     Severity.NOTE,
     "a setting of YARP is no longer needed",
     """`stdio` names the machine that shows the output: `rcdeploy logs` shows the output of all
-programs. `rank` is for load balancing. `persist`: `rcdeploy` keeps every connection.
+programs. `rank` weighs a module for load balancing; `place by load` weighs all alike. `persist`:
+`rcdeploy` keeps every connection.
 `dependencies` of an application: a connection is made as soon as both ports exist.""",
 )
 
@@ -126,6 +128,7 @@ UNSUPPORTED_FORMAT = Code(
     Severity.ERROR,
     "a file of YARP is of a kind that is not migrated",
     """Migrated are applications of yarpmanager (root `<application>`) and descriptions of
-yarprobotinterface (root `<robot>`, `<devices>`, `<device>`). Descriptions of modules, of computers
-(`<resources>`, `<cluster>`) and templates have no counterpart: name the application instead.""",
+yarprobotinterface (root `<robot>`, `<devices>`, `<device>`); lists of machines (`<cluster>`,
+`<resources>`) together with an application. Descriptions of modules and templates have no
+counterpart: name the application instead.""",
 )

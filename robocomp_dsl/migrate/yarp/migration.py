@@ -14,10 +14,11 @@ from pathlib import Path
 
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.output import OutputFile
-from robocomp_dsl.migrate.yarp import codes
+from robocomp_dsl.migrate.yarp import codes, host_list
 from robocomp_dsl.migrate.yarp.application import Application, read_application
 from robocomp_dsl.migrate.yarp.application_ddsl import application_text
 from robocomp_dsl.migrate.yarp.document import APPLICATION, OTHER_ROOTS, ROBOT_ROOTS, root_name
+from robocomp_dsl.migrate.yarp.host_list import ListedMachine
 from robocomp_dsl.migrate.yarp.programs import UniqueNames, draft_application
 from robocomp_dsl.migrate.yarp.robot import migrate_robot
 from robocomp_dsl.migrate.yarp.robot_files import read_robot
@@ -64,6 +65,7 @@ def plan_yarp_files(
         names.claim(name)
     applications: dict[str, Application] = {}
     own: list[tuple[Path, Application]] = []
+    lists: list[Source] = []
     for path in paths:
         source = Source.read(path)
         root = root_name(source)
@@ -71,18 +73,33 @@ def plan_yarp_files(
             if application := read_application(source, report):
                 own.append((path, application))
                 applications.setdefault(_key(application), application)
+        elif root in host_list.ROOTS:
+            lists.append(source)
         elif root in ROBOT_ROOTS:
             _add_robot(source, out, frozenset(tags), names, plan, report)
         else:
             message = f"`<{root}>`: name the application or the robot that uses this file"
             report.add(codes.UNSUPPORTED_FORMAT, source.file_span, message)
+    machines = _machines(lists, report, used=bool(own))
     if any(application.nested for _, application in own):
         _add_neighbours(paths, applications)
     nested = _nested_names(own, applications)
     for path, application in own:
         if _key(application) not in nested:
-            _add_application(path, application, applications, names, plan, report)
+            _add_application(path, application, applications, machines, names, plan, report)
     return plan
+
+
+def _machines(lists: Sequence[Source], report: Report, *, used: bool) -> list[ListedMachine]:
+    """The machines of all lists; reports lists that no application uses."""
+    machines: list[ListedMachine] = []
+    for source in lists:
+        if used:
+            machines += host_list.read_host_list(source, report)
+        else:
+            message = f"`<{root_name(source)}>`: name the application that uses these machines, too"
+            report.add(codes.UNSUPPORTED_FORMAT, source.file_span, message)
+    return machines
 
 
 def _key(application: Application) -> str:
@@ -132,12 +149,13 @@ def _add_application(
     path: Path,
     application: Application,
     applications: dict[str, Application],
+    machines: Sequence[ListedMachine],
     names: UniqueNames,
     plan: YarpPlan,
     report: Report,
 ) -> None:
     name = _deployment_name(path, names)
-    draft = draft_application(application, applications, report)
+    draft = draft_application(application, applications, report, machines)
     plan.files.append(OutputFile(f"{name}.ddsl", application_text(name, draft)))
     plan.deployments.append(f"{name}.ddsl")
     plan.converted_files.append((path.name, f"{name}.ddsl"))

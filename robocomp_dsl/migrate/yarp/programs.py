@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from robocomp_dsl.diagnostics import Report
@@ -18,6 +18,7 @@ from robocomp_dsl.migrate.yarp.application import (
     ModuleEntry,
     NestedApplication,
 )
+from robocomp_dsl.migrate.yarp.host_list import ListedMachine
 from robocomp_dsl.source import Span
 
 START_WAIT_S = 0.1
@@ -33,13 +34,23 @@ _VARIABLE_NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 @dataclass(frozen=True, slots=True)
 class ProgramDraft:
-    """A program of the deployment; `node` "": this machine."""
+    """A program of the deployment; `node` "": this machine. `by_load`: on any of the hosts."""
 
     name: str
     command: str
     node: str
     environment: tuple[tuple[str, str], ...]
     ready_s: float
+    by_load: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class HostDraft:
+    """A host of the deployment; `address` "": this machine; `user` "": that of ssh."""
+
+    name: str
+    address: str
+    user: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,12 +64,12 @@ class ConnectionDraft:
 
 @dataclass(slots=True)
 class ApplicationDraft:
-    """What becomes a deployment. `hosts` are pairs of name and address."""
+    """What becomes a deployment. `hosts` are by their name in the files of YARP."""
 
     application: Application
     programs: list[ProgramDraft] = field(default_factory=list)
     connections: list[ConnectionDraft] = field(default_factory=list)
-    hosts: dict[str, str] = field(default_factory=dict)
+    hosts: dict[str, HostDraft] = field(default_factory=dict)
 
 
 class UniqueNames:
@@ -80,11 +91,17 @@ class UniqueNames:
 
 
 def draft_application(
-    application: Application, others: Mapping[str, Application], report: Report
+    application: Application,
+    others: Mapping[str, Application],
+    report: Report,
+    machines: Sequence[ListedMachine] = (),
 ) -> ApplicationDraft:
-    """The programs and connections of `application`; nested ones are found in `others`."""
+    """The programs and connections of `application`; nested ones are found in `others`.
+
+    With a list of `machines` modules without a `<node>` are placed by load, as yarpmanager does.
+    """
     draft = ApplicationDraft(application)
-    _Drafter(draft, others, report).add(application, "", (application.name,))
+    _Drafter(draft, others, report, machines).add(application, "", (application.name,))
     return draft
 
 
@@ -92,9 +109,14 @@ class _Drafter:
     """Adds an application and its nested ones to a draft."""
 
     def __init__(
-        self, draft: ApplicationDraft, others: Mapping[str, Application], report: Report
+        self,
+        draft: ApplicationDraft,
+        others: Mapping[str, Application],
+        report: Report,
+        machines: Sequence[ListedMachine],
     ) -> None:
         self._draft = draft
+        self._machines = {machine.name: machine for machine in machines}
         self._others = others
         self._report = report
         self._names = UniqueNames()
@@ -133,6 +155,9 @@ class _Drafter:
         program = module.name.split()[0].replace("\\", "/").rpartition("/")[2]
         name = self._names.claim(module.tag or re.sub(r"\.(exe|py|sh|lua)$", "", program))
         self._report_settings(module)
+        by_load = bool(self._machines) and not module.node.strip("/ ")
+        for machine in self._machines.values() if by_load else ():
+            self._declare(machine)
         self._draft.programs.append(
             ProgramDraft(
                 name,
@@ -140,6 +165,7 @@ class _Drafter:
                 self._host(module),
                 tuple(self._environment(module, prefix + module.prefix)),
                 max(module.wait_s, START_WAIT_S),
+                by_load,
             )
         )
 
@@ -186,13 +212,21 @@ class _Drafter:
             message = f"`{module.node:.60}` is no name of a machine; `{module.name}` runs here"
             self._report.add(codes.SETTING_DROPPED, module.span, message)
             return ""
-        known = {value: key for key, value in self._draft.hosts.items()}
-        if address not in known:
-            known[address] = self._hosts.claim(address)
-            self._draft.hosts[known[address]] = address
+        machine = self._machines.get(address) or ListedMachine(address, address, module.span)
+        if machine.name not in self._draft.hosts:
             message = f"`{module.name}` and others run on `{address}`"
             self._report.add(codes.REMOTE_NODE, module.span, message)
-        return known[address]
+        return self._declare(machine)
+
+    def _declare(self, machine: ListedMachine) -> str:
+        """The name of the host for a machine, which is declared once."""
+        known = self._draft.hosts.get(machine.name)
+        if known is None:
+            is_local = machine.address.lower() in LOCAL_NODES
+            name = "localhost" if is_local else self._hosts.claim(machine.name)
+            address = "" if is_local else machine.written_address
+            known = self._draft.hosts[machine.name] = HostDraft(name, address, machine.user)
+        return known.name
 
     def _environment(self, module: ModuleEntry, prefix: str) -> list[tuple[str, str]]:
         variables = [("YARP_PORT_PREFIX", prefix)] if prefix else []

@@ -34,6 +34,11 @@ def connection_port(port: str, peer: str) -> str:
     return f"{port}{_FROM}{component}:{peer_port}"
 
 
+def is_port_of_connection(name: str, port: str) -> bool:
+    """Whether `name` is the port of a connection of `port`."""
+    return name.startswith(f"{port}{_FROM}")
+
+
 def is_connection_port(port: str) -> bool:
     """Whether the port is one of a connection; users cannot write such a name."""
     return _FROM in port

@@ -6,11 +6,14 @@ service; or `UnchangeablePort` says why it cannot while the component runs, and 
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
+from robocomp_dsl.runtime.component.naming import is_port_of_connection
 from robocomp_dsl.runtime.connection.component_ports import ComponentPorts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.latched_messages import LatchedMessages
 from robocomp_dsl.runtime.connection.qos_merge import sender_qos
 from robocomp_dsl.runtime.connection.qos_support import check_qos
 from robocomp_dsl.runtime.connection.service_channel import ServiceChannel
@@ -19,7 +22,7 @@ from robocomp_dsl.runtime.connection.subscribed_port import SubscribedPort
 from robocomp_dsl.runtime.connection.topic_channel import TopicChannel
 from robocomp_dsl.runtime.errors import MiddlewareError
 
-_Port = TypeVar("_Port", ServingPort, ServiceChannel, TopicChannel, SubscribedPort)
+_Port = TypeVar("_Port", bound=ServingPort | ServiceChannel | TopicChannel | SubscribedPort)
 
 
 class UnchangeablePort(MiddlewareError):
@@ -30,23 +33,56 @@ def update_port(ports: ComponentPorts, role: str, before: Endpoint, at: Endpoint
     """Change the port `before` to `at`. Raises `MiddlewareError`; then nothing has changed."""
     check_qos(at, role, at.middlewares)
     if role == "server":
-        _update_server(_find(ports.servers, before), at)
+        _update_all(_opened(ports.servers, before, at), _update_server)
     elif role == "client":
-        _find(ports.channels, before).update(at)
+        _update_all(_opened(ports.channels, before, at), ServiceChannel.update)
     elif role == "publisher":
-        _update_topic(ports, _find(ports.topics, before), at)
+        _update_all(
+            _opened(ports.topics, before, at), lambda topic, new: _update_topic(ports, topic, new)
+        )
     else:
-        _find(ports.subscribed, before).update(at)
+        _update_all(_opened(ports.subscribed, before, at), SubscribedPort.update)
 
 
-def _find(opened: list[_Port], before: Endpoint) -> _Port:
-    for port in opened:
-        if port.at.interface is before.interface and port.at.port == before.port:
-            return port
-    raise UnchangeablePort(
-        f"the connections of `{before.port}` cannot be changed while the component runs: they are"
-        " part of its lock-step or monitored, or the port is not open yet"
-    )
+def _update_all(
+    changes: list[tuple[_Port, Endpoint]], update: Callable[[_Port, Endpoint], None]
+) -> None:
+    """Change all ports or, if one refuses, none of them."""
+    changed: list[tuple[_Port, Endpoint]] = []
+    try:
+        for port, at in changes:
+            changed.append((port, port.at))
+            update(port, at)
+    except MiddlewareError:
+        for port, former in changed[:-1]:
+            update(port, former)
+        raise
+
+
+def _opened(
+    opened: Sequence[_Port], before: Endpoint, at: Endpoint
+) -> list[tuple[_Port, Endpoint]]:
+    """The open ports of `before`, and what becomes of each.
+
+    A port with monitored connections consists of several, and a client whose server monitors it
+    names another port of the server: only their quality of service can change.
+    """
+    same = [port for port in opened if port.at.interface is before.interface]
+    exact = [port for port in same if port.at.port == before.port]
+    own = [port for port in same if is_port_of_connection(port.at.port, before.port)]
+    if not exact and not own:
+        raise UnchangeablePort(
+            f"the connections of `{before.port}` cannot be changed while the component runs: they"
+            " are part of its lock-step, or the port is not open yet"
+        )
+    if not own and all(port.at.peers == before.peers for port in exact):
+        return [(exact[0], at)]
+    if replace(at, qos=before.qos, peer_qos=before.peer_qos) != before:
+        raise UnchangeablePort(
+            f"`{before.port}` has monitored connections: while the component runs, only their"
+            " quality of service can change; write the connection into the deployment"
+        )
+    return [(port, replace(port.at, qos=at.qos, peer_qos=at.peer_qos)) for port in (*exact, *own)]
 
 
 def _update_server(server: ServingPort, at: Endpoint) -> None:
@@ -65,11 +101,6 @@ def _update_server(server: ServingPort, at: Endpoint) -> None:
 
 
 def _update_topic(ports: ComponentPorts, topic: TopicChannel, at: Endpoint) -> None:
-    if bool(sender_qos(at).latched) != topic.is_latched:
-        raise UnchangeablePort(
-            f"`latched` of the published port `{at.port}` is fixed when it starts; write it into"
-            " the deployment and start it again"
-        )
     publishers = [ports.publisher(port.middleware, at) for port in topic.ports]
     records = [
         ports.declare("publisher", at, port.middleware, publisher.address)
@@ -80,3 +111,6 @@ def _update_topic(ports: ComponentPorts, topic: TopicChannel, at: Endpoint) -> N
     for record in former:
         if record not in records:
             ports.presence.withdraw(record)
+    is_latched = bool(sender_qos(at).latched)
+    if is_latched != topic.is_latched:
+        topic.set_latched(LatchedMessages(at, ports.presence) if is_latched else None)

@@ -54,6 +54,7 @@ class TopicChannel:
         self._latched = latched
         self.records: list[PortRecord] = []
         self._rebind: list[Callable[[], None]] = []
+        self._change_latched: list[Callable[[], None]] = []
         self._retired: list[Publisher] = []
         self._attaching = [p for p in ports if p.capabilities.attaches_subscribers]
         self._attached: dict[tuple[str, PortRecord], PublishedPort] = {}
@@ -64,11 +65,19 @@ class TopicChannel:
     def bind(self, operation: Operation) -> OperationCallable:
         """See `ports.Channel`."""
         functions = [self._bind_port(i, operation) for i in range(len(self._ports))]
-        publish = functions[0] if len(functions) == 1 else self._publish_on_all(functions)
-        if self._latched:
-            publish = self._latched.keep(operation, publish, self._ports[0].numbers)
+        publish = self._publication(operation, functions)
+
+        def change() -> None:
+            nonlocal publish
+            publish = self._publication(operation, functions)
+
+        self._change_latched.append(change)
         if not self._attaching:
-            return publish
+
+            def publish_now(*arguments: Any) -> None:
+                publish(*arguments)
+
+            return publish_now
 
         def attach_and_publish(*arguments: Any) -> None:
             if self._version != self._registry.version:
@@ -76,6 +85,15 @@ class TopicChannel:
             publish(*arguments)
 
         return attach_and_publish
+
+    def _publication(
+        self, operation: Operation, functions: list[OperationCallable]
+    ) -> OperationCallable:
+        """The publication on all middlewares, as the port is latched now."""
+        publish = functions[0] if len(functions) == 1 else self._publish_on_all(functions)
+        if self._latched:
+            return self._latched.keep(operation, publish, self._ports[0].numbers)
+        return publish
 
     def _bind_port(self, index: int, operation: Operation) -> OperationCallable:
         """The publication on one middleware; `replace_publishers` binds it again."""
@@ -141,6 +159,15 @@ class TopicChannel:
     def is_latched(self) -> bool:
         """Whether the latest messages are kept."""
         return self._latched is not None
+
+    def set_latched(self, latched: LatchedMessages | None) -> None:
+        """Keep the messages that are published from now on, or none of them."""
+        with self._lock:
+            former, self._latched = self._latched, latched
+            for change in self._change_latched:
+                change()
+        if former:
+            former.close()
 
     @property
     def at(self) -> Endpoint:

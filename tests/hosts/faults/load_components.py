@@ -2,7 +2,8 @@
 
 `caller` sends numbered commands to `ledger`, and does not repeat one. `ledger` writes each command
 that it executes, `caller` each that is acknowledged: the journals show what was lost or executed
-twice. `source` publishes numbers to `sink`, and logs each. `faulty` fails as its parameter says.
+twice. `source` publishes numbers to `sink`, and logs each. `faulty` fails as its parameter says,
+`stubborn` ignores SIGTERM.
 Times are those of the monotonic clock, which all hosts of a test share.
 """
 
@@ -29,6 +30,7 @@ COMMUNICATIONS = {
     "source": "publishes Feed;",
     "sink": "subscribesTo Feed;",
     "faulty": "",
+    "stubborn": "",
 }
 PERIODS_MS = {"caller": 5, "source": 20, "faulty": 50}
 PARAMETERS = 'ComponentParams faulty { fault string ""; };\n'
@@ -90,9 +92,6 @@ WORKERS = {
 """,
     "faulty": """
     kept = b""
-    def initialize(self):
-        if self.params.fault == "ignores SIGTERM":
-            signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGTERM])
     def compute(self):
         match self.params.fault:
             case "crashes":
@@ -101,7 +100,11 @@ WORKERS = {
             case "hangs":
                 time.sleep(3600)
             case "leaks":
-                self.kept += bytes(20_000_000)
+                self.kept += bytes(5_000_000)
+""",
+    "stubborn": """
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    signal.signal = lambda *_: None  # nobody sets another handler
 """,
 }
 

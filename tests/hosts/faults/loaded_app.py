@@ -40,13 +40,17 @@ class Unit:
 class LoadedApp(HostedApp):
     """The components of `load_components` on hosts; `places` maps component to host."""
 
-    def __init__(self, folder: Path, hosts: Hosts, name: str = "load") -> None:
+    name = "load"
+
+    def __init__(self, folder: Path, hosts: Hosts) -> None:
         super().__init__(folder, hosts)
-        self.name = name
         self.places: dict[str, str] = {}
 
     def describe(self, components: dict[str, str], more: str = "") -> None:
-        """Write the DDSL file. `components`: name → host and, after a space, statements."""
+        """Write the DDSL file, and make its keys.
+
+        `components`: name → host and, after a space, statements.
+        """
         self.places = {name: text.split(" ")[0] for name, text in components.items()}
         statements = "".join(
             f"    component {name} on {host} {{ ready within 100 s; {extra} }};\n"
@@ -61,6 +65,7 @@ class LoadedApp(HostedApp):
         self.path.write_text(
             f"{imports}Deployment {self.name}\n{{\n{declared}{statements}{more}}};\n"
         )
+        self.make_keys()
 
     def host_of(self, component: str) -> SimulatedHost:
         return self.hosts.by_name[self.places[component]]
@@ -119,10 +124,11 @@ class LoadedApp(HostedApp):
         path = f"{names.root_folder(self.name)}/{names.log_file(component)}"
         return (self.host_of(component).home / path).read_text("utf-8")
 
-    def logged(self, component: str, text: str) -> list[float]:
-        """The times of the log lines that contain `text` [s since 1970]."""
+    def logged(self, component: str, text: str, since: float) -> list[float]:
+        """The times of the log lines after `since` that contain `text` [s since 1970]."""
         lines = [line for line in self.log(component).splitlines() if text in line]
-        return [float(json.loads(line)["time"]) for line in lines]
+        times = (float(json.loads(line)["time"]) for line in lines)
+        return [moment for moment in times if moment > since]
 
     def lost_calls(self) -> set[tuple[str, int]]:
         """Calls that were acknowledged and not executed."""
@@ -155,11 +161,11 @@ def show_unit(host: SimulatedHost, unit: str) -> Unit:
     )
 
 
-def make_loaded_app(folder: Path, hosts: Hosts, name: str = "load") -> LoadedApp:
+def make_loaded_app(folder: Path, hosts: Hosts) -> LoadedApp:
     """Generate the components in `folder`."""
     load_components.build(folder)
     hosts.trust()
-    return LoadedApp(folder, hosts, name)
+    return LoadedApp(folder, hosts)
 
 
 def percentile(values: Iterable[float], share: float) -> float:

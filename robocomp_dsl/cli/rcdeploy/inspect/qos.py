@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from robocomp_dsl.cli.rcdeploy.inspect.connection_calls import ConnectionEnd, ConnectionEnds
     from robocomp_dsl.client import DomainClient
 
-SENDER_ITEMS = ("priority", "reliable", "best_effort", "keep_all")
+SENDER_ITEMS = ("priority", "reliable", "best_effort", "keep_all", "latched")
 """Items that concern the sender of messages; the others concern the receiver only."""
 _NOT_FOR_RECEIVERS = ("priority",)
 _SERVER_ITEMS = ("thread_priority",)
