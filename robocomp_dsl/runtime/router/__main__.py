@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import logging
 import signal
+import socket
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -33,8 +34,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--log-format", choices=("text", "json"), default="text")
     options = parser.parse_args(arguments)
     logs.set_up("router", options.log_level, options.log_format)
-    # Blocked in all threads: `_signals` waits for them.
-    signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
+    received = _receive_signals()
     try:
         settings = read_router_settings(options.settings)
         logs.set_up(settings.name, options.log_level, options.log_format)
@@ -49,7 +49,7 @@ def main(arguments: list[str] | None = None) -> int:
     listens = f"listens at {', '.join(settings.listen)}"
     notifier.state_changed("compute", listens)
     log.info("%s", listens)
-    for number in _signals(notifier):
+    for number in _wait_for_signals(received, notifier):
         if number != signal.SIGHUP:
             break
         try:
@@ -62,13 +62,23 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-def _signals(notifier: SystemdNotifier) -> Iterator[int]:
+def _receive_signals() -> socket.socket:
+    """A socket from which the numbers of signals can be read, whichever thread they interrupt."""
+    receiver, sender = socket.socketpair()
+    sender.setblocking(False)
+    for number in _SIGNALS:
+        signal.signal(number, lambda _number, _frame: None)
+    signal.set_wakeup_fd(sender.detach(), warn_on_full_buffer=False)
+    return receiver
+
+
+def _wait_for_signals(received: socket.socket, notifier: SystemdNotifier) -> Iterator[int]:
     """The signals that arrive; tells systemd meanwhile that the process does not hang."""
-    interval = notifier.watchdog_s / 3 or 3600.0
+    received.settimeout(notifier.watchdog_s / 3 or None)
     while True:
-        if received := signal.sigtimedwait(_SIGNALS, interval):
-            yield received.si_signo
-        else:
+        try:
+            yield from received.recv(1)
+        except TimeoutError:
             notifier.ping()
 
 

@@ -20,7 +20,7 @@ from robocomp_dsl.runtime.router.router_settings import read_router_settings
 from tests.deploy.network.network_node import open_node
 from tests.deploy.network.secured_deployment import SecuredDeployment
 from tests.deploy.rcdeploy_process import RunningProcess
-from tests.support.waiting import wait_until
+from tests.support.waiting import TIMEOUT_S, wait_until
 
 
 def changed_settings(site: SecuredDeployment, **changes: Any) -> Path:
@@ -82,6 +82,7 @@ def test_router_program_reports_ready_to_systemd(
     address = str(site.keys.path / "notify")
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as notify:
         notify.bind(address)
+        notify.settimeout(TIMEOUT_S)
         monkeypatch.setenv("NOTIFY_SOCKET", address)
         with site.start_router(site.hosts[0]) as router:
             assert b"READY=1" in notify.recv(1000)
