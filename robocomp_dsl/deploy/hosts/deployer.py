@@ -32,6 +32,7 @@ from robocomp_dsl.deploy.hosts.rollout import (
     raise_failures,
     roll_out,
 )
+from robocomp_dsl.deploy.hosts.router_ports import check_router_ports
 from robocomp_dsl.deploy.network.identities import needs_network
 from robocomp_dsl.deploy.network.key_checks import check_keys
 from robocomp_dsl.deploy.network.key_folder import key_folder
@@ -72,6 +73,8 @@ class Deployer:
         async with self._checked_fleet() as fleet:
             content = self._describe(fleet)
             checks = await content.check(fleet, self._report)
+            spans = host_spans(self._deployment)
+            await check_router_ports(fleet, self._deployment, spans, self._report)
             raise_failures(fleet)
             self._reject_errors()
             await lock_hosts(fleet)
