@@ -14,7 +14,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # Processes started by tests use the commands of this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: campaign conformance test-wheel test-tools test-hosts test-peers fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
+.PHONY: campaign campaign-hosts conformance test-wheel test-tools test-hosts test-peers fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
 
 demo: $(READY)
 	$(BIN)/python components/touch_demo/demo.py $(ARGS)
@@ -43,6 +43,13 @@ fuzz: $(READY)
 campaign: $(READY)
 	$(BIN)/python -m tests.campaign
 
+# Inject faults into deployments over simulated hosts; the figures go to build/host_faults.json.
+campaign-hosts: $(READY)
+	tests/hosts/install.sh
+	mkdir -p build
+	FAULT_ROUNDS=25 FAULT_CUT_S=30 FAULT_FIGURES=build/host_faults.json \
+	$(BIN)/python -m pytest -q -m hosts tests/hosts/faults
+
 # Generate the editors' keyword files from the grammars.
 highlight: $(READY)
 	$(BIN)/python -m editors.highlight
@@ -50,6 +57,7 @@ highlight: $(READY)
 # Install the programs that tests use besides Python: editors, and the Slice compiler.
 test-tools: $(READY)
 	editors/install-test-tools.sh $(CURDIR)/$(BIN)/python
+	$(BIN)/pip install -q --disable-pip-version-check kubernetes-validate
 
 test-editors: test-tools
 	$(BIN)/python -m pytest -q -m editors tests/editors

@@ -17,6 +17,8 @@ MAX_LINE_BYTES = 64 * 1024
 """Maximum bytes of a line; a longer line continues in the next record."""
 MAX_CLOCK_OFFSET_S = 86400.0
 """A record whose time is further off than this gets the time of its arrival instead."""
+STREAMS = ("stdout", "stderr")
+"""Streams of lines that user code prints; a component of a group in one process names its own."""
 RCDEPLOY = "rcdeploy"
 """Component name in the records of rcdeploy itself."""
 
@@ -117,16 +119,22 @@ def _structured_record(component: str, fields: Mapping[str, Any], now: float) ->
     if trace := fields.get("exception"):
         text += f"\n{trace}"
     plausible = isinstance(logged, float) and abs(logged - now) < MAX_CLOCK_OFFSET_S
-    return LogRecord(logged if plausible else now, component, str(fields["level"]).upper(), text)
+    at, level = logged if plausible else now, str(fields["level"]).upper()
+    stream = fields.get("stream") if not level else None
+    return LogRecord(at, component, level, text, stream if stream in STREAMS else "log")
 
 
-def parse_line(component: str, text: str, time: float, stream: str) -> LogRecord:
-    """A stored line: a JSON line with its own time, or any text, at `time` [s since 1970]."""
+def parse_line(component: str, text: str, time: float, members: Collection[str] = ()) -> LogRecord:
+    """A stored line: a JSON line with its own time, or any text, at `time` [s since 1970].
+
+    `members` are the components of a group in one process, whose lines have their names.
+    """
     fields = _parse_object(text) if text.startswith("{") else {}
     if "message" not in fields or "level" not in fields:
-        return LogRecord(time, component, "", text, stream)
-    logged = fields.get("time")
-    return _structured_record(component, fields, logged if isinstance(logged, float) else time)
+        return LogRecord(time, component, "", text, "stdout")
+    logged, member = fields.get("time"), str(fields.get("component"))
+    owner = member if member in members else component
+    return _structured_record(owner, fields, logged if isinstance(logged, float) else time)
 
 
 def format_record(record: LogRecord, width: int, *, colours: bool) -> str:

@@ -94,6 +94,8 @@ def _create_runner(
         os.environ[TRACEBACK_VARIABLE] = "1"
     try:
         config, save_beside = _configuration(options, settings, component.SPEC.name)
+        if supervision and supervision.in_group:  # whatever the working folder is later
+            config, save_beside = config and config.absolute(), save_beside.absolute()
         params = component.SPEC.parameters.load(config, settings.overrides, save_beside=save_beside)
         settings = replace(settings, config=config)
         if config:

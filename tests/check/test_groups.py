@@ -176,3 +176,100 @@ def test_check_ddsl_accepts_any_groups(text: str) -> None:
         place = {name: i for i, name in enumerate(names)}
         for instance in found.instances:
             assert all(place[name] < place[instance.name] for name in instance.after)
+
+
+MONITOR = """
+from robocomp_dsl.runtime import Monitor
+
+
+class Limit(Monitor):
+    def update(self, operation, arguments):
+        return arguments
+"""
+
+
+def test_definitions_are_relative_to_their_file_and_have_exports_at_both_ends(
+    tmp_path: Path,
+) -> None:
+    part = tmp_path / "parts"
+    part.mkdir()
+    (part / "body.yaml").write_text("rate: 20\n")
+    (part / "limits.py").write_text(MONITOR)
+    (part / "arm.ddsl").write_text(f"""
+        import "{PARTS}/body.cdsl";
+        import "{PARTS}/reflex.cdsl";
+        group arm
+        {{
+            component body {{ config "body.yaml"; prefix inner; }};
+            component reflex;
+            connect body.LaserPub -> reflex.LaserPub {{ monitor "limits.py" Limit; }};
+            connect reflex.Laser -> body.Laser;
+            export LaserPub from body as Out;
+        }};
+        group eye
+        {{
+            component reflex;
+            export LaserPub from reflex as In;
+            export Laser from reflex;
+        }};
+        group pair {{ group both : eye; export In from both; export Laser from both as Needs; }};
+    """)
+    (tmp_path / "app.ddsl").write_text(f"""
+        import "parts/arm.ddsl";
+        import "{PARTS}/body.cdsl";
+        Deployment app
+        {{
+            host robot {{ address "10.0.0.2"; }};
+            component body;
+            group left : arm on robot {{ prefix left; set body.rate = 30; }};
+            group right : arm {{ after left; }};
+            group eyes : pair {{ prefix "far/away"; }};
+            connect left.Out -> eyes.In {{ reliable; depth 3; }};
+            connect right.Out -> eyes.In;
+            connect eyes.Needs -> body.Laser;
+        }};
+    """)
+    found = read(tmp_path / "app.ddsl")
+    by_name = {instance.name: instance for instance in found.instances}
+    left, right, eyes = by_name["left-body"], by_name["right-body"], by_name["eyes-both-reflex"]
+    assert [left.full_name, right.full_name] == ["left/inner/left-body", "inner/right-body"]
+    assert eyes.full_name == "far/away/eyes-both-reflex"
+    assert left.config == right.config == part / "body.yaml"
+    assert [left.settings, right.settings] == [(("rate", 30.0),), ()]
+    assert [left.host.name, right.host.name] == ["robot", ""]
+    assert set(right.after) == {"left-body", "left-reflex"}
+    files = {monitor.file for wire in found.connections for monitor in wire.monitors}
+    assert files == {part / "limits.py"}
+    outside = [wire for wire in found.connections if wire.target is eyes]
+    assert [(wire.source.name, wire.qos.depth) for wire in outside] == [
+        ("left-body", 3),
+        ("right-body", None),
+    ]
+    assert [(g.name, g.definition) for g in found.groups] == [
+        ("left", "arm"),
+        ("right", "arm"),
+        ("eyes", "pair"),
+        ("eyes-both", "eye"),
+    ]
+    assert [export.name for export in found.groups[2].exports] == ["In", "Needs"]
+
+
+def test_members_of_one_process_are_connected_by_plain_calls(tmp_path: Path) -> None:
+    found = written(
+        tmp_path,
+        """component reflex; group g { inprocess; component body; group inner { component reflex; };
+        export Laser from body; export LaserPub from body; };
+        connect reflex.Laser -> g.Laser; connect g.LaserPub -> reflex.LaserPub;""",
+    )
+    assert {i.name: i.process for i in found.instances} == {
+        "reflex": "",
+        "g-body": "g",
+        "g-inner-reflex": "g",
+    }
+    used = {(w.source.name, w.target.name): w.middleware for w in found.connections}
+    assert used == {
+        ("reflex", "g-body"): "",
+        ("g-body", "reflex"): "",
+        ("g-inner-reflex", "g-body"): "inproc",
+        ("g-body", "g-inner-reflex"): "inproc",
+    }

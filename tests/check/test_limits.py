@@ -190,3 +190,31 @@ def test_nesting_depth_is_limited(tmp_path: Path, name: str, depth: int) -> None
     found = _found(tmp_path / name)
     assert code in found
     assert len(found) < 5
+
+
+@pytest.mark.parametrize(
+    "definitions",
+    [
+        [f"group d{i} {{ group x : d{i + 1}; group y : d{i + 1}; }};" for i in range(30)],
+        [f"group d{i} : d{i + 1};" for i in range(200)],
+        [f"group d{i} {{ group x : d{i + 1}; }};" for i in range(200)],
+    ],
+    ids=["doubled", "derived", "nested"],
+)
+def test_check_ddsl_limits_instances_of_groups(tmp_path: Path, definitions: list[str]) -> None:
+    (tmp_path / "c.cdsl").write_text("Component c { language Python; };")
+    last = f"group d{len(definitions)} {{ component c; }};"
+    (tmp_path / "x.ddsl").write_text(
+        'import "c.cdsl";\n' + "\n".join([*definitions, last, "Deployment x { group g : d0; };"])
+    )
+    assert set(_found(tmp_path / "x.ddsl")) == {"RC569"}
+
+
+def test_check_ddsl_accepts_imports_in_a_circle(tmp_path: Path) -> None:
+    (tmp_path / "c.cdsl").write_text("Component c { language Python; };")
+    for name, other in (("x", "y"), ("y", "x")):
+        (tmp_path / f"{name}.ddsl").write_text(
+            f'import "{other}.ddsl"; import "c.cdsl"; group in_{name} {{ component c; }};\n'
+            f"Deployment {name} {{ group one : in_x; group two : in_y; }};"
+        )
+    assert _found(tmp_path / "x.ddsl") == []

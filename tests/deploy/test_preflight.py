@@ -286,6 +286,8 @@ def test_check_leaves_remote_programs_to_their_host(folder: Path) -> None:
     assert checked.hosted
     assert checked.plan
     assert checked.plan.domain == "app"
+    shown = "\n".join(as_text(checked.plan, hosted=checked.hosted))
+    assert r"robocomp-app-left\x2darm.service: no-such-program" in shown
 
 
 def test_check_accepts_groups_on_local_hosts(folder: Path) -> None:

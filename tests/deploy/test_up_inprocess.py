@@ -30,7 +30,7 @@ Deployment app
 def test_up_runs_group_in_one_process_and_restarts_it(app_folder: Path) -> None:
     (app_folder / "app.ddsl").write_text(APP)
     with start_app() as app:
-        app.until("arm begins with abc 30.0", "left is ready", "all 2 components are ready")
+        app.until("left-arm | arm begins with abc 30.0", "all 2 components are ready")
         while sum("eye sees a new arm" in line for line in app.lines) < 2:
             app.until("eye sees a new arm")
         group, eye = status()["components"]

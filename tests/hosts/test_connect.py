@@ -28,7 +28,6 @@ def app(hosts: Hosts, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Hosted
     return hosted
 
 
-@pytest.mark.xfail(reason="a call stays without reply after the routers have read new settings")
 def test_connect_grants_connection_over_hosts(app: HostedApp) -> None:
     app.write(STATEMENTS)
     app.make_keys()

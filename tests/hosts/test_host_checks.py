@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from robocomp_dsl.deploy.hosts.connection import connect
+from robocomp_dsl.deploy.hosts.errors import HostRefused
 from robocomp_dsl.deploy.hosts.host_facts import HostFacts, fetch_facts
 from robocomp_dsl.model.deployment import Host
 from tests.hosts.rcdeploy_command import CommandOutcome, rcdeploy
@@ -85,6 +86,9 @@ def test_host_facts_ignore_output_of_the_login(module_hosts: Hosts, robot: Simul
     robot.run(["sh", "-c", "echo 'echo Welcome to robot' > .bashrc"])
     try:
         assert facts_of(robot).hostname == "robot"
+        robot.run(["sh", "-c", "echo 'echo Maintenance until noon; exit 1' > .bashrc"])
+        with pytest.raises(HostRefused, match="does not run there: Maintenance until noon"):
+            facts_of(robot)
     finally:
         robot.run(["rm", ".bashrc"])
 

@@ -42,7 +42,9 @@ def own_file(operator: Path) -> Path:
 def test_trust_without_terminal_needs_the_fingerprint(
     robot: SimulatedHost, app: Path, operator: Path
 ) -> None:
-    assert "unknown key" in rcdeploy("hosts", str(app)).stdout
+    shown = rcdeploy("hosts", str(app))
+    assert "unknown key" in shown.stdout
+    assert f"confirm it: `rcdeploy hosts trust {app} robot`" in shown.stderr
     outcome = rcdeploy("hosts", "trust", str(app))
     assert outcome.code == 1
     assert f"ED25519 key {fingerprint(robot)}" in outcome.stdout

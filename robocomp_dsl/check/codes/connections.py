@@ -32,7 +32,7 @@ UNSUITABLE_MIDDLEWARE = Code(
 A middleware connects the components of one process, of one machine or of several machines; some
 have only services or only topics, and some restrict the names of components and ports.
 
-Wrong: each component of a deployment is a process.
+Wrong: each component is a process, except in a group with `inprocess`.
 
     connect reflex.Skin -> body.Skin over inproc;
 

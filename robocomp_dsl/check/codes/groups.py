@@ -177,3 +177,23 @@ Right:
     component b { env MODE = y; };
 """,
 )
+
+TOO_LARGE = Code(
+    "RC569",
+    Severity.ERROR,
+    "definitions of groups have too many instances",
+    """\
+A deployment may have 1000 instances of groups, and a definition may follow 50 others. More is
+nearly always a mistake: ten definitions, each with four instances of the next one, are a million.
+
+Wrong:
+
+    group a { group x : b; group y : b; };  // and so on, thirty times
+    group b { group x : c; group y : c; };
+
+Right:
+
+    group a { group x : b; };
+    group b { component motor; };
+""",
+)

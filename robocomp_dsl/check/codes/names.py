@@ -273,7 +273,7 @@ UNKNOWN_MIDDLEWARE = Code(
     Severity.ERROR,
     "unknown middleware",
     """\
-`zenoh` is the default, and `inproc` connects the components of one process, for tests. The finding
+`zenoh` is the default, and `inproc` connects the components of one process. The finding
 lists the others: those that the tool includes, and those of installed packages.
 
 Wrong:

@@ -27,6 +27,10 @@ from robocomp_dsl.syntax.ast.base import Node
 from robocomp_dsl.syntax.parse import parse_ddsl
 
 SUFFIX = ".ddsl"
+MAX_INSTANCES = 1000
+"""Instances of groups in one deployment."""
+MAX_DEPTH = 50
+"""Definitions that one instance may follow, directly and in each other."""
 
 
 @dataclass(slots=True)
@@ -44,6 +48,8 @@ class DefinitionFiles:
 
     def __init__(self, workspace: Workspace, check: CheckComponent) -> None:
         self.files: dict[str, DefinitionFile] = {}
+        self._instances = 0
+        self.is_exceeded = False
         self._by_source: dict[Path, DefinitionFile] = {}
         self._workspace = workspace
         self._check = check
@@ -118,6 +124,28 @@ class DefinitionFiles:
         loaded = self.load(parsed, file_report)
         report.extend(errors_of(file_report))
         return loaded
+
+    def begin_deployment(self) -> None:
+        """Count the instances of a deployment from here."""
+        self._instances = 0
+        self.is_exceeded = False
+
+    def may_expand(self, group: ast.Group, depth: int, report: Report) -> bool:
+        """Whether an instance in `depth` definitions is within the limits; reports the first."""
+        self._instances += 1
+        if self._instances <= MAX_INSTANCES and depth < MAX_DEPTH:
+            return True
+        if not self.is_exceeded:
+            most = f"{MAX_INSTANCES} instances of groups"
+            report.add(
+                codes.TOO_LARGE,
+                (group.definition or group.name).span,
+                "this deployment has more than "
+                + (most if depth < MAX_DEPTH else f"{MAX_DEPTH} definitions in each other"),
+                help="remove instances from the definitions",
+            )
+        self.is_exceeded = True
+        return False
 
     def find(self, group: ast.Group) -> ast.Group | None:
         """The definition of an instance; None if there is none of that name."""

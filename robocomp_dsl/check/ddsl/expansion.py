@@ -48,7 +48,11 @@ def expand(
     if any(definition is known for known in outer):
         _report_cycle(group, definition, outer, report)
         return group, ()
+    if not definitions.may_expand(group, len(outer), report):
+        return group, ()
     inner, followed = expand(definition, {}, (*outer, definition), definitions, report)
+    if inner.definition is not None and not followed:
+        return group, ()  # it has no definition itself, which was reported
     _check_places(group, inner, report)
     return _merge(group, inner), (definition, *followed)
 

@@ -91,6 +91,8 @@ class _Resolver:
         path = tree.span.source.path
         hosts = resolve_hosts(tree.hosts, report)
         scope = self.scope = scopes_of(tree, self._definitions, report)
+        if self._definitions.is_exceeded:
+            return Deployment(tree.name.text, path, tree.name.span, "", (), ())
         places = resolve_places(scope, hosts, report)
         context = InstanceContext(self._definitions, places, workspace)
         trees = flatten(scope)

@@ -113,6 +113,7 @@ def scopes_of(
     tree: ast.Deployment, definitions: DefinitionFiles, report: Report
 ) -> DeploymentScope:
     """The scope of a deployment, with all its groups."""
+    definitions.begin_deployment()
     return _filled(DeploymentScope("", tree, None), (), (), definitions, report)
 
 

@@ -33,9 +33,10 @@ def print_logs(
 ) -> None:
     """Print the stored records, and with `follow` what comes until Ctrl-C. Raises `CliError`."""
     is_plain = not (chosen.level or chosen.pattern)
-    request = LogRequest(
-        sorted(chosen.components), chosen.since, last if last is not None and is_plain else -1
-    )
+    # Lines of a group are those of all its components.
+    is_plain &= not deployment.members
+    lines = last if last is not None and is_plain else -1
+    request = LogRequest(chosen.components, chosen.since, lines, dict(deployment.members))
     readers = [HostLogReader(host, deployment.name, request) for host in deployment.hosts]
     unreachable: list[HostError] = []
     try:

@@ -28,12 +28,16 @@ def load(path: Path, folders: Sequence[Path]) -> Deployment:
 
 
 def hosts_of(deployment: Deployment) -> tuple[Host, ...]:
-    """All hosts that are declared or used; those on this machine are one."""
+    """All hosts that are declared or used; those on this machine are one.
+
+    None if all components run on this machine: the supervisor that starts them needs no systemd.
+    """
     from robocomp_dsl.deploy.hosts.host_checks import used_hosts  # noqa: PLC0415
 
     used = used_hosts(deployment)
     remote = {host.name: host for host in (*deployment.hosts, *used) if not host.is_local}
-    return (*[host for host in used if host.is_local][:1], *remote.values())
+    local = [host for host in used if host.is_local and remote]
+    return (*local[:1], *remote.values())
 
 
 def select(hosts: Sequence[Host], names: Sequence[str]) -> list[Host]:

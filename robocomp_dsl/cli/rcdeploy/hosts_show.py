@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -46,7 +47,11 @@ def command(app: Path, folders: tuple[Path, ...], clock_limit: float, output_for
     from robocomp_dsl.cli.output.render import strip_control_chars  # noqa: PLC0415 - not for --help
 
     deployment = hosts_deployment.load(app, folders)
-    checked = asyncio.run(_check(deployment, clock_limit / 1e3))
+    hosts = hosts_deployment.hosts_of(deployment)
+    if not hosts and output_format == "text":
+        print("all components run on this machine: there is no host to check")
+        return
+    checked = asyncio.run(_check(deployment, hosts, clock_limit / 1e3))
     if output_format == "json":
         print(json.dumps(as_dict(checked), indent=2))
     else:
@@ -58,10 +63,11 @@ def command(app: Path, folders: tuple[Path, ...], clock_limit: float, output_for
         raise CliError(EXIT_FINDINGS)
 
 
-async def _check(deployment: Deployment, clock_limit_s: float) -> CheckedHosts:
+async def _check(
+    deployment: Deployment, hosts: Sequence[Host], clock_limit_s: float
+) -> CheckedHosts:
     from robocomp_dsl.deploy.hosts.host_checks import HostLimits, check_hosts  # noqa: PLC0415
 
-    hosts = hosts_deployment.hosts_of(deployment)
     limits = HostLimits(clock_s=clock_limit_s)
     checked = await check_hosts(deployment, deployment.name, hosts, limits)
     await checked.close()

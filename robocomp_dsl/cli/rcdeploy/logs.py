@@ -78,7 +78,8 @@ def command(
             raise CliError(EXIT_FINDINGS, text)
         from robocomp_dsl.cli.rcdeploy import host_logs  # noqa: PLC0415 - loads asyncssh
 
-        known = [name for name, _ in hosted.places]
+        members = (name for _, names in hosted.members for name in names)
+        known = [*(name for name, _ in hosted.places), *members]
         names = {running.resolve_component(name, known) for name in component}
         chosen = LogFilter(names, level or "", _since(since), _pattern(grep))
         printer = _Printer(as_json=output_format == "json", follow=follow)

@@ -19,6 +19,7 @@ from robocomp_dsl.cli.rcdeploy import app as rcdeploy_app
 from robocomp_dsl.deploy.external_connection import describe_connection
 from robocomp_dsl.deploy.plan import Plan, Process, batches
 from robocomp_dsl.deploy.plan_text import format_readiness
+from robocomp_dsl.deploy.units.names import service_name
 from robocomp_dsl.model.deployment import ExternalConnection
 from robocomp_dsl.model.limits_text import format_limits
 
@@ -54,7 +55,8 @@ def command(
 ) -> None:
     """Show the processes that `up` would start, their order and connections; start nothing.
 
-    The command lines can be pasted into a shell. If the deployment is running, they join it.
+    The command lines can be pasted into a shell. If the deployment is running, they join it. Over
+    several hosts the units of systemd are shown.
     Without --hosts nothing is asked: hosts of `on label` and `place by load` are chosen by `up`.
     Exit code 1: it cannot be started now; standard error has the reasons.
     """
@@ -74,7 +76,7 @@ def command(
     elif output_format == "json":
         print(json.dumps(as_data(plan, choices), indent=1))
     else:
-        lines = [*as_text(plan), *_chosen(choices)]
+        lines = [*as_text(plan, hosted=checked.hosted), *_chosen(choices)]
         print("\n".join(map(strip_control_chars, lines)))
     if not checked.ready:
         raise CliError(EXIT_FINDINGS)
@@ -164,8 +166,8 @@ def _process(process: Process) -> dict[str, Any]:
     }
 
 
-def as_text(plan: Plan) -> Iterator[str]:
-    """The plan as text with shell commands."""
+def as_text(plan: Plan, *, hosted: bool = False) -> Iterator[str]:
+    """The plan as text with shell commands; `hosted`: with units of systemd on several hosts."""
     over = f" over {', '.join(plan.middlewares)}" if plan.middlewares else ""
     count = len(plan.components)
     yield f"{plan.name}: {count} component{'s' * (count != 1)}{over}"
@@ -176,6 +178,8 @@ def as_text(plan: Plan) -> Iterator[str]:
         for name in names:
             yield ""
             yield from _described(by_name[name], wave)
+            unit = service_name(plan.name, name)
+            yield _unit_line(by_name[name], unit) if hosted else _shell_line(by_name[name])
     for group in plan.groups:
         yield from ("", *group.format())
     for program in plan.externals:
@@ -212,7 +216,17 @@ def _described(process: Process, wave: int) -> Iterator[str]:
     yield from (
         f"   {'devices' if not i else '       '} {line}" for i, line in enumerate(process.devices)
     )
-    variables = [f"{key}={shlex.quote(value)}" for key, value in process.env]
+
+
+def _shell_line(process: Process) -> str:
     # In a subshell with an absolute path, so that the lines can be pasted one after the other.
+    variables = [f"{key}={shlex.quote(value)}" for key, value in process.env]
     command = " ".join([*variables, shlex.join(process.argv)])
-    yield f"   (cd {shlex.quote(str(process.cwd.resolve()))} && {command})"
+    return f"   (cd {shlex.quote(str(process.cwd.resolve()))} && {command})"
+
+
+def _unit_line(process: Process, unit: str) -> str:
+    """The unit and its command line, in which the host has paths of its own."""
+    words = ["python3" if word == sys.executable else word for word in process.argv]
+    variables = [f"{key}={shlex.quote(value)}" for key, value in process.env]
+    return f"   {unit}: {' '.join([*variables, shlex.join(words)])}"

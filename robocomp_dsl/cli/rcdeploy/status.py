@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 CALL_TIMEOUT_S = 0.5
 """For all components together; a running component replies within milliseconds."""
+HOSTS_TIMEOUT_S = 2.0
+"""The same over several hosts, whose network may be slow."""
 
 
 @click.command()
@@ -97,17 +99,22 @@ def _with_component_state(
     """`rows` with the information of the components themselves."""
     from robocomp_dsl.deploy import component_queries  # noqa: PLC0415 - loads a middleware
 
-    states = component_queries.fetch_states(
-        engine.domain, [row.name for row in rows if row.life and not row.members], CALL_TIMEOUT_S
-    )
-    return [_row(row, states.get(row.name)) for row in rows]
+    names = [row.name for row in rows if row.life and not row.members]
+    over_hosts = any(row.host for row in rows)
+    timeout_s = HOSTS_TIMEOUT_S if over_hosts else CALL_TIMEOUT_S
+    states = component_queries.fetch_states(engine.domain, names, timeout_s)
+    if over_hosts and not states:
+        return rows  # the network is out of reach, not each component; systemd knows their states
+    return [_row(row, states.get(row.name), timeout_s) for row in rows]
 
 
-def _row(row: status.ProcessStatus, state: ComponentState | None) -> status.ProcessStatus:
+def _row(
+    row: status.ProcessStatus, state: ComponentState | None, timeout_s: float
+) -> status.ProcessStatus:
     if row.members:
         return row  # a group answers nothing; its components do
     if state is None:
-        silent = f"does not answer within {CALL_TIMEOUT_S:g} s"
+        silent = f"does not answer within {timeout_s:g} s"
         return replace(row, note=row.note or silent) if row.life else row
     info = state.info
     return replace(

@@ -21,7 +21,7 @@ from robocomp_dsl.deploy.log_runs import LogRun
 from robocomp_dsl.deploy.log_store import DAY_S, LogLimits, LogStore
 from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.deploy.supervisor.requests import PlanRejected, Replan
-from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome
+from robocomp_dsl.deploy.supervisor.run_options import Options, Outcome
 from robocomp_dsl.deploy.supervisor.system import unsupported_reason
 from robocomp_dsl.runtime.presence.domain_names import NameTaken, reserve
 from robocomp_dsl.runtime.private_folder import UnsafeFolder
@@ -129,6 +129,7 @@ def command(
         return
     if follow:
         raise click.UsageError("--follow is for several hosts; on one machine `up` shows the logs")
+    _reject_hosted(checked.plan.name)
     if reason := unsupported_reason():
         raise CliError(EXIT_FINDINGS, reason)
     try:
@@ -142,6 +143,20 @@ def command(
         claim.release()
     if outcome.code:
         raise CliError(outcome.code, outcome.reason)
+
+
+def _reject_hosted(name: str) -> None:
+    """Raise `CliError` if a deployment of that name runs on other machines."""
+    from robocomp_dsl.deploy.hosts import registry  # noqa: PLC0415 - seldom any
+
+    for entry in registry.registered():
+        if entry.name == name and not entry.is_stopped:
+            hosts = ", ".join(host.name for host in entry.hosts)
+            raise CliError(
+                EXIT_FINDINGS,
+                f"`{name}` runs on {hosts}; stop it with `rcdeploy stop {name}`, or use another"
+                " --name",
+            )
 
 
 def _replan(

@@ -115,6 +115,8 @@ class Init:
     def _read_output(self) -> bool:
         """Pass on what the program prints, and look for the line that shows that it is ready."""
         assert self._process.stdout is not None  # noqa: S101 - a pipe
+        if self._process.stdout.closed:
+            return False
         data = os.read(self._process.stdout.fileno(), 1 << 16)
         if not data:
             self._process.stdout.close()

@@ -14,8 +14,11 @@ from functools import cache
 from importlib.metadata import Distribution, PackageNotFoundError, distribution, distributions
 from pathlib import Path
 
-from packaging.requirements import InvalidRequirement, Requirement
-from packaging.utils import canonicalize_name
+from robocomp_dsl.deploy.content.packaging_library import (
+    InvalidRequirement,
+    Requirement,
+    canonicalize_name,
+)
 
 OWN_NAME = "robocomp-dsl"
 _KNOWN_MODULES = {

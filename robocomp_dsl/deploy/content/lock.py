@@ -15,8 +15,6 @@ from functools import cached_property
 from importlib.metadata import entry_points
 from pathlib import Path
 
-from packaging.requirements import Requirement
-
 from robocomp_dsl.deploy.content import codes
 from robocomp_dsl.deploy.content.distributions import (
     LockedDistribution,
@@ -28,6 +26,7 @@ from robocomp_dsl.deploy.content.distributions import (
 )
 from robocomp_dsl.deploy.content.hash_cache import HashCache
 from robocomp_dsl.deploy.content.package_files import NAME, is_runtime, package_version
+from robocomp_dsl.deploy.content.packaging_library import Requirement
 from robocomp_dsl.deploy.content.python_imports import ImportPlace, ImportReader
 from robocomp_dsl.deploy.content.requirements_file import FILE_NAME, read_requirements
 from robocomp_dsl.deploy.content.tree import ContentTree

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from packaging.requirements import InvalidRequirement, Requirement
-
 from robocomp_dsl.deploy.content import codes
+from robocomp_dsl.deploy.content.packaging_library import InvalidRequirement, Requirement
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.source import Source, UnreadableSource
 

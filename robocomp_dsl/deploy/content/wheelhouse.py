@@ -20,8 +20,6 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from packaging.utils import InvalidWheelFilename, canonicalize_name, parse_wheel_filename
-
 from robocomp_dsl.deploy.content.distributions import (
     LockedDistribution,
     RequirementProblem,
@@ -30,6 +28,11 @@ from robocomp_dsl.deploy.content.distributions import (
 from robocomp_dsl.deploy.content.hash_cache import HashCache, cache_folder
 from robocomp_dsl.deploy.content.lock import RUNTIME_REQUIREMENTS, Environment
 from robocomp_dsl.deploy.content.package_files import write_package_wheel
+from robocomp_dsl.deploy.content.packaging_library import (
+    InvalidWheelFilename,
+    canonicalize_name,
+    parse_wheel_filename,
+)
 from robocomp_dsl.deploy.content.repack import installed_tags, repack
 from robocomp_dsl.deploy.content.wheel_target import WheelTarget
 
@@ -82,7 +85,11 @@ class WheelStore:
     ) -> tuple[Wheelhouse | None, list[RequirementProblem]]:
         """The wheels of an environment; None with problems. Takes seconds if some are missing."""
         self._folder.mkdir(parents=True, exist_ok=True)
-        uv = LockedDistribution("uv", _uv_version())
+        uv = _locked_uv()
+        if uv is None:
+            help_text = f"{sys.executable} -m pip install 'robocomp_dsl[hosts]'"
+            message = "`uv`, which installs packages on hosts, is not installed here"
+            return None, [RequirementProblem("uv", message, help_text)]
         needed = (*environment.distributions, uv)
         tags = python.tags()
         paths = _cached_wheels(self._folder, tags)
@@ -208,7 +215,8 @@ def _no_wheel(locked: LockedDistribution, python: WheelTarget, reason: str) -> R
         help_text = "connect this machine to the package index once; wheels stay in the cache"
         return RequirementProblem(str(locked), message, help_text)
     message = f"there is no wheel of {locked} for {host}"
-    help_text = f"install a version here that has one, or use Python {_own_minor()} on the host"
+    other = f"Python {_own_minor()}" if python.glibc else "a system with glibc, such as Debian,"
+    help_text = f"install a version here that has one, or use {other} on the host"
     return RequirementProblem(str(locked), message, help_text)
 
 
@@ -221,6 +229,6 @@ def _own_minor() -> str:
     return f"{sys.version_info.major}.{sys.version_info.minor}"
 
 
-def _uv_version() -> str:
+def _locked_uv() -> LockedDistribution | None:
     installed = find_installed("uv")
-    return installed.version if installed else ""
+    return LockedDistribution("uv", installed.version) if installed else None

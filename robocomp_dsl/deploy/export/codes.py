@@ -48,7 +48,7 @@ UNREACHABLE = Code(
     "a middleware does not leave a container",
     """\
 Each component runs in a container of its own. `local` uses shared memory and sockets of one
-machine, and `inproc` one process; neither connects containers. zenoh does.
+machine, which do not connect containers. zenoh does.
 
     Deployment robot { middleware local; component arm; };        // on one machine, or with systemd
     Deployment robot { component arm; };                          // zenoh

@@ -101,9 +101,9 @@ def _service(exported: ExportedDeployment, each: ExportedProcess) -> dict[str, A
         "stop_grace_period": f"{_STOP_S}s",
         **_limits(each),
     }
-    mounts = [{"source": _config_name(each), "target": each.configs[0].target}]
+    mounts = [{"source": _config_name(each), "target": c.target} for c in each.configs]
     if is_component:
-        data["configs"] = [_network_config(each.service), *(mounts if each.configs else [])]
+        data["configs"] = [_network_config(each.service), *mounts]
         data["secrets"] = [*_key_mounts(each.service, identity)]
     if each.device_files:
         data["devices"] = [f"{path}:{path}" for path in each.device_files]

@@ -13,7 +13,12 @@ from typing import Any
 from robocomp_dsl.deploy.export.model import ROUTER, ROUTER_PORT, STATE, ExportedDeployment
 from robocomp_dsl.deploy.export.names import service_name
 from robocomp_dsl.deploy.network.access_rules import access_rules
-from robocomp_dsl.deploy.network.identities import LOOPBACK, common_name, router_name
+from robocomp_dsl.deploy.network.identities import (
+    LOOPBACK,
+    common_name,
+    process_names,
+    router_name,
+)
 from robocomp_dsl.deploy.network.router_plan import (
     AUTHORITY_FILE,
     component_settings,
@@ -62,7 +67,7 @@ def router_service(name: str) -> str:
 def moved_to(deployment: Deployment, host: Host) -> Deployment:
     """The deployment with all components at `host`."""
     changed = {i.name: i.replace(host=host) for i in deployment.instances}
-    return with_instances(deployment, changed)
+    return with_instances(deployment, changed).replace(hosts=(host,))
 
 
 def router_text(exported: ExportedDeployment, host: Host, *, listen: str) -> str:
@@ -73,8 +78,9 @@ def router_text(exported: ExportedDeployment, host: Host, *, listen: str) -> str
 
 
 def component_text(exported: ExportedDeployment, full_name: str, *, address: str) -> str:
-    """The settings of a component, which finds the router at `address`."""
-    instance = next(i for i in exported.deployment.instances if i.full_name == full_name)
+    """The settings of a process, which finds the router at `address`."""
+    names = process_names(exported.deployment)
+    instance = next(i for i in exported.deployment.instances if names.get(i.full_name) == full_name)
     data = json.loads(component_settings(exported.deployment, instance))
     return _text({**data, **_FILES, "endpoints": [f"tls/{address}:{ROUTER_PORT}"]})
 

@@ -24,53 +24,45 @@ from robocomp_dsl.deploy.export.model import (
     ExportedProcess,
 )
 from robocomp_dsl.deploy.export.names import service_name, service_names
+from robocomp_dsl.deploy.export.network import moved_to
 from robocomp_dsl.deploy.export.requirements import locked_requirements
-from robocomp_dsl.deploy.placement.placed_deployment import with_instances
+from robocomp_dsl.deploy.hosts.host_network import first_component
 from robocomp_dsl.deploy.plan import Plan, Process, plan
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.deployment import Deployment, Host, Instance
 
 PYTHON = "python3"
 HASH_DIGITS = 16
-CONFINED = ("local", "inproc")
-"""Middlewares of one machine, and of one process."""
-ANYWHERE = ("zenoh",)
+CONFINED = ("local",)
+"""Middlewares of one machine."""
+ANYWHERE = ("zenoh", "inproc")
+"""Middlewares that need nothing: `inproc` is inside of a process."""
 _DEVICE = re.compile(r"/dev/[A-Za-z0-9_./-]+")
 _SECRET = re.compile(r"(PASSWORD|PASSPHRASE|SECRET|TOKEN|API_?KEY)$", re.IGNORECASE)
 _WATCHDOG_VARIABLE = "WATCHDOG_USEC"
 DEFAULT_CONFIG = Path("etc/config.yaml")
 
 
-def separate_groups(deployment: Deployment, report: Report) -> Deployment:
-    """The deployment without groups in one process: each component is a process of its own."""
-    for group in (group for group in deployment.groups if group.inprocess):
-        report.add(
-            codes.INEXPRESSIBLE,
-            group.span,
-            f"the components of `{group.name}` are exported as a process each",
-            help="calls between them travel over their middleware",
-        )
-    single = {i.name: i.replace(process="") for i in deployment.instances if i.process}
-    return with_instances(deployment, single) if single else deployment
-
-
 def prepare(
     deployment: Deployment, name: str, domain: str, host: Host, report: Report
 ) -> ExportedDeployment:
     """The deployment with all components at `host`, which stands for the containers."""
-    deployment = separate_groups(deployment, report)
-    described = deployment
-    moved = with_instances(deployment, {i.name: i.replace(host=host) for i in deployment.instances})
+    moved = moved_to(deployment, host)
     planned = plan(moved, name=name, domain=domain, interpreter=PYTHON)
-    files = {i.full_name: i.files for i in deployment.instances}
-    trees = describe_trees(moved, planned, report, files)
+    trees = describe_trees(moved, planned, report)
     services = service_names((p.name for p in planned.processes), reserved=(ROUTER,))
-    pairs = zip(described.instances, planned.processes, strict=True)
+    instances = {instance.full_name: instance for instance in deployment.instances}
     processes = tuple(
-        _export(instance, process, trees[process.name], services[process.name], report)
-        for instance, process in pairs
+        _export(
+            instances[first_component(process)],
+            process,
+            trees[process.name],
+            services[process.name],
+            report,
+        )
+        for process in planned.processes
     )
-    _check_reach(described, planned, report)
+    _check_reach(deployment, planned, report)
     _check_programs(processes, report)
     requirements = locked_requirements(moved, planned, trees, report)
     return ExportedDeployment(service_name(name), domain, moved, processes, requirements)
@@ -80,7 +72,7 @@ def _export(
     instance: Instance, process: Process, tree: ContentTree, service: str, report: Report
 ) -> ExportedProcess:
     folder = f"{CONTENT}/{tree.hash[:HASH_DIGITS]}"
-    there = relocate(process, tree, tree_folder=folder)
+    there = relocate(process, tree, tree_folder=folder, python=PYTHON, interpreter=PYTHON)
     there, secrets = _without_secrets(instance, _without_port(instance, there, report), report)
     texts = [*there.argv, *(value for _, value in there.env), *_device_values(instance)]
     devices = sorted({match for text in texts for match in _DEVICE.findall(text)})
@@ -126,10 +118,12 @@ def _without_secrets(
 
 def _configs(tree: ContentTree, process: Process) -> Iterator[ConfigFile]:
     """The configuration of a component, which can be changed without a new image."""
-    own = process.config or (process.cwd / DEFAULT_CONFIG if not process.is_program else None)
+    if process.is_program or process.members:
+        return
+    own = process.config or process.cwd / DEFAULT_CONFIG
     root = f"{CONTENT}/{tree.hash[:HASH_DIGITS]}"
     for file in tree.files:
-        if own is not None and f"{root}/{file.path}" == str(own):
+        if f"{root}/{file.path}" == str(own):
             yield ConfigFile(Path(file.source), str(own))
 
 

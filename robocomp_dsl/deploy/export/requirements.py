@@ -9,9 +9,9 @@ import sys
 from collections.abc import Mapping
 
 from robocomp_dsl import __version__
-from robocomp_dsl.deploy.content.host_python import HostPython
 from robocomp_dsl.deploy.content.lock import EnvironmentLocker
 from robocomp_dsl.deploy.content.tree import ContentTree
+from robocomp_dsl.deploy.content.wheel_target import WheelTarget
 from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.deployment import Deployment
@@ -29,11 +29,11 @@ def locked_requirements(
     deployment: Deployment, plan: Plan, trees: Mapping[str, ContentTree], report: Report
 ) -> str:
     """`NAME==VERSION` for each package that a component needs."""
-    python = HostPython(sys.executable, sys.version_info[:2], MACHINE, GLIBC)
-    locker = EnvironmentLocker(deployment, python, report)
+    python = WheelTarget(sys.executable, sys.version_info[:2], MACHINE, GLIBC)
+    locker = EnvironmentLocker(deployment, plan, python, report)
     found = set(locker.lock_runtime(deployment.span).distributions)
-    for instance, process in zip(deployment.instances, plan.processes, strict=True):
-        if environment := locker.lock(instance, process, trees[process.name]):
+    for process in plan.processes:
+        if environment := locker.lock(process, trees[process.name]):
             found |= set(environment.distributions)
     # The first process of a container imports robocomp_dsl.deploy, which is always in the package.
     lines = [f"robocomp_dsl=={__version__}", *map(str, sorted(found))]

@@ -1,4 +1,4 @@
-"""Texts of the export to systemd: unit of the router, installation script, README. Pure."""
+"""Texts of the export to systemd: installation script and README. Pure."""
 
 from __future__ import annotations
 
@@ -8,29 +8,10 @@ from collections.abc import Sequence
 from robocomp_dsl.deploy.network.key_folder import file_name
 from robocomp_dsl.deploy.network.router_plan import AUTHORITY_FILE, identity_files
 from robocomp_dsl.deploy.units import names
-from robocomp_dsl.deploy.units.hosted_process import HOST_PATHS
-from robocomp_dsl.deploy.units.quoting import command_line, path
 from robocomp_dsl.model.deployment import Deployment, Host
 
-
-def router_unit(deployment: str, root: str, python: str) -> str:
-    """The unit of the router of a host."""
-    module = ["-m", "robocomp_dsl.runtime.router", f"{root}/private/router.json"]
-    command = [python, *module, "--log-format", "json"]
-    log = path(f"{root}/{names.log_file('router.host')}", HOST_PATHS)
-    return f"""\
-[Unit]
-Description={path(f"router of {deployment}")}
-PartOf={names.target_name(deployment)}
-
-[Service]
-Type=notify
-ExecStart={command_line(command, HOST_PATHS)}
-Restart=always
-RestartSec=0.1
-StandardOutput=append:{log}
-StandardError=append:{log}
-"""
+ENVIRONMENT = "exported"
+"""The folder of the Python environment, in place of the hash of one that rcdeploy installs."""
 
 
 def install_script(deployment: str, components: Sequence[str], identities: Sequence[str]) -> str:
@@ -48,8 +29,9 @@ def install_script(deployment: str, components: Sequence[str], identities: Seque
         f'root="$HOME"/{quoted(root)}',
         f'units="$HOME"/{quoted(names.UNITS)}',
         'mkdir -p "$root/trees" "$root/logs" "$root/environments" "$units"',
-        'python3 -m venv "$root/environments/exported"',
-        'pip="$root/environments/exported/bin/pip"',
+        f'environment="$root/environments/{ENVIRONMENT}"',
+        'python3 -m venv "$environment"',
+        'pip="$environment/bin/pip"',
         '"$pip" install --quiet --no-deps --find-links "$here/wheels" -r "$here/requirements.txt"',
         'cp -R "$here/trees/." "$root/trees/"',
     ]

@@ -27,7 +27,7 @@ from robocomp_dsl.deploy.hosts.registry import HostedDeployment
 from robocomp_dsl.deploy.hosts.rollout import raise_failures
 from robocomp_dsl.deploy.network.access_rules import access_rules
 from robocomp_dsl.deploy.network.identities import router_name
-from robocomp_dsl.deploy.network.port_uses import Rewiring
+from robocomp_dsl.deploy.network.port_uses import AddedConnection
 from robocomp_dsl.deploy.placement.placed_deployment import with_hosts
 from robocomp_dsl.deploy.units import names
 from robocomp_dsl.diagnostics import Report
@@ -45,7 +45,7 @@ class CannotGrant(Exception):
     """The routers cannot be changed; the message says why. Nothing is connected."""
 
 
-def grant(entry: HostedDeployment, connection: Rewiring) -> bool:
+def grant(entry: HostedDeployment, connection: AddedConnection) -> bool:
     """Let all routers pass `connection`; whether anything had to change. Raises `CannotGrant`."""
     deployment = _deployment(entry)
     if access_rules(deployment, entry.domain) == access_rules(
@@ -92,10 +92,12 @@ class _RouterFile:
 
     path: str
     data: dict[str, Any]
-    granted: tuple[Rewiring, ...]
+    granted: tuple[AddedConnection, ...]
 
 
-async def _grant(entry: HostedDeployment, deployment: Deployment, connection: Rewiring) -> bool:
+async def _grant(
+    entry: HostedDeployment, deployment: Deployment, connection: AddedConnection
+) -> bool:
     """Change the settings of all routers; only if all of them can be read."""
     described = access_rules(deployment, entry.domain).to_zenoh()
     async with open_fleet(entry.hosts, entry.name) as fleet:
@@ -116,13 +118,8 @@ async def _grant(entry: HostedDeployment, deployment: Deployment, connection: Re
             await _write_json(agent, f"{_private(entry.name)}/{GRANTED}", listed)
             await _write_json(agent, file.path, {**file.data, "access": access})
             before = await _last_reload(agent)
-            unit = names.router_name(entry.name)
-            command = ["systemctl", "--user", "kill", "--kill-who=main", "--signal=HUP", unit]
-            result = await agent.connection.run(command)
-            if result.code:
-                reason = result.stderr.decode(errors="replace").strip()
-                text = f"{agent.host.name}: the router does not read its settings: {reason}"
-                raise HostError(text)
+            # It copies the settings of its version to the file that the router reads.
+            await agent.systemctl("reload", [names.router_name(entry.name)])
             deadline = time.monotonic() + RELOAD_TIMEOUT_S
             while await _last_reload(agent) == before:
                 if time.monotonic() > deadline:
@@ -145,7 +142,7 @@ async def _read(agent: HostAgent, deployment: str) -> _RouterFile:
     content = await agent.connection.read(path)
     listed = await agent.connection.read(f"{_private(deployment)}/{GRANTED}")
     try:
-        granted = tuple(Rewiring(*map(str, each)) for each in json.loads(listed or b"[]"))
+        granted = tuple(AddedConnection(*map(str, each)) for each in json.loads(listed or b"[]"))
         data = dict(json.loads(content or b""))
         return _RouterFile(path, {**data, "access": data["access"]}, granted)
     except (ValueError, TypeError, KeyError):

@@ -23,7 +23,8 @@ from typing import Any
 
 PROPERTIES = (
     "Id,LoadState,ActiveState,SubState,Result,MainPID,NRestarts,ExecMainCode,ExecMainStatus,"
-    "StatusText,ActiveEnterTimestampMonotonic,InactiveEnterTimestampMonotonic,Job"
+    "StatusText,ActiveEnterTimestampMonotonic,InactiveEnterTimestampMonotonic,Job,"
+    "InactiveExitTimestampMonotonic,StartLimitBurst"
 )
 UNITS = Path(".config/systemd/user")
 PERIOD_S = 0.1
@@ -202,7 +203,7 @@ class Agent:
             self.operations[unit] = self.operations.get(unit, 0) + 1
             if unit in self.watched:
                 self.watched[unit] = None
-        waits = operation in ("daemon-reload", "reset-failed", "enable", "disable", "stop")
+        waits = operation not in ("start", "restart")
         code, _, error = systemctl(operation, *([] if waits else ["--no-block"]), "--", *units)
         return {"code": code, "error": error}
 

@@ -33,6 +33,7 @@ from robocomp_dsl.deploy.hosts.rollout import (
     raise_failures,
     roll_out,
 )
+from robocomp_dsl.deploy.hosts.router_ports import check_router_ports
 from robocomp_dsl.deploy.network.identities import needs_network
 from robocomp_dsl.deploy.network.key_checks import check_keys
 from robocomp_dsl.deploy.network.key_folder import key_folder
@@ -65,6 +66,7 @@ class Deployer:
         self._say = say
         self._limits = limits or HostLimits()
         self._report = Report()
+        self._left_behind: list[Host] = []
         self.warnings: list[Diagnostic] = []
 
     async def up(self) -> RolloutResult:
@@ -72,6 +74,8 @@ class Deployer:
         async with self._checked_fleet() as fleet:
             content = self._describe(fleet)
             checks = await content.check(fleet, self._report)
+            spans = host_spans(self._deployment)
+            await check_router_ports(fleet, self._deployment, spans, self._report)
             raise_failures(fleet)
             self._reject_errors()
             await lock_hosts(fleet)
@@ -112,14 +116,14 @@ class Deployer:
         hosts = candidate_hosts(self._deployment)
         earlier = self._earlier_hosts(hosts)
         async with open_fleet([*hosts, *earlier], self._plan.name, with_facts=True) as fleet:
-            self._check_fleet(fleet, hosts)
+            self._check_fleet(fleet, hosts, earlier)
             await self._place(fleet)
             cpus = {name: facts.cpus for name, facts in fleet.facts.items()}
             self._report.extend(check_cores(self._deployment, cpus))
             self._reject_errors()
             yield fleet
 
-    def _check_fleet(self, fleet: Fleet, hosts: Iterable[Host]) -> None:
+    def _check_fleet(self, fleet: Fleet, hosts: Iterable[Host], earlier: Iterable[Host]) -> None:
         described = {host.name: host for host in hosts}
         spans = host_spans(self._deployment)
         for name, failure in list(fleet.failures.items()):
@@ -128,6 +132,7 @@ class Deployer:
                 self._report.extend([describe_failure(failure, span)])
             else:
                 del fleet.failures[name]
+                self._left_behind.append(next(h for h in earlier if h.name == name))
                 self._say(f"{name}: what runs there is not stopped: {failure.message}")
         for name, facts in fleet.facts.items():
             if host := described.get(name):
@@ -165,7 +170,8 @@ class Deployer:
             self._plan.name,
             str(self._plan.path.resolve()),
             self._plan.domain,
-            deployment_hosts(self._deployment),
+            # The next `up` tries again to stop what runs on hosts that did not answer.
+            (*deployment_hosts(self._deployment), *self._left_behind),
             tuple(sorted(components.values(), key=lambda c: order.get(c.name, -1))),
             time.time(),
         )

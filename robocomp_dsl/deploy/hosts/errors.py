@@ -5,6 +5,8 @@ from __future__ import annotations
 from robocomp_dsl.deploy.hosts import codes
 from robocomp_dsl.diagnostics import Code
 
+ANY_FILE = "APP.ddsl"
+"""Stands for the deployment's file in `HostError.help`."""
 _STATES = {
     codes.UNREACHABLE.id: "unreachable",
     codes.LOGIN.id: "login refused",

@@ -97,7 +97,8 @@ class HostAgent:
     async def _receive(self) -> None:
         try:
             while line := await self._process.readline():
-                self._handle(json.loads(line))
+                if line.startswith(b"{"):  # a login script may print something
+                    self._handle(json.loads(line))
             result = await self._process.close()
             reason = result.error.rpartition("\n")[2] or f"exit code {result.code}"
             failure = HostError(f"{self.host.name}: the connection or Python ended: {reason}")

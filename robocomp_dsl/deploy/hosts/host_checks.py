@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from robocomp_dsl.deploy.hosts import codes
 from robocomp_dsl.deploy.hosts.address import describe_host
 from robocomp_dsl.deploy.hosts.connection import HostConnection, connect, load_ssh
-from robocomp_dsl.deploy.hosts.errors import HostError
+from robocomp_dsl.deploy.hosts.errors import ANY_FILE, HostError
 from robocomp_dsl.deploy.hosts.host_facts import MIN_PYTHON, HostFacts, fetch_facts
 from robocomp_dsl.deploy.status import format_duration
 from robocomp_dsl.diagnostics import Code, Diagnostic, Severity
@@ -148,7 +149,8 @@ def host_spans(deployment: Deployment) -> dict[str, Span]:
 
 def describe_failure(error: HostError, span: Span) -> Diagnostic:
     """A `HostError` as a finding at the host."""
-    return Diagnostic(error.code, span, error.message, help=error.help)
+    remedy = error.help.replace(ANY_FILE, shlex.quote(str(span.source.path)))
+    return Diagnostic(error.code, span, error.message, help=remedy)
 
 
 def check_facts(

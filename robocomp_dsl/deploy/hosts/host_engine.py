@@ -15,12 +15,14 @@ from typing import Any, TypeVar
 from robocomp_dsl.deploy import status
 from robocomp_dsl.deploy.engine import DeploymentStatus, EngineError, StopResult
 from robocomp_dsl.deploy.hosts import registry
+from robocomp_dsl.deploy.hosts.denials import latest_denials
 from robocomp_dsl.deploy.hosts.description import all_components
 from robocomp_dsl.deploy.hosts.differences import stored_manifest
 from robocomp_dsl.deploy.hosts.errors import HostError
 from robocomp_dsl.deploy.hosts.fleet import Fleet, open_fleet
 from robocomp_dsl.deploy.hosts.host_agent import HostAgent
-from robocomp_dsl.deploy.hosts.host_report import HostReport, UnitState
+from robocomp_dsl.deploy.hosts.host_report import UnitState
+from robocomp_dsl.deploy.hosts.host_rows import host_rows
 from robocomp_dsl.deploy.hosts.manifest import HostedComponent, HostManifest, host_as_dict
 from robocomp_dsl.deploy.hosts.registry import HostedDeployment
 from robocomp_dsl.deploy.hosts.rollout import (
@@ -44,7 +46,6 @@ from robocomp_dsl.deploy.units import names as unit_names
 
 STATUS_TIMEOUT_S = 5.0
 """A host that does not answer within this time is shown as unreachable."""
-LIFECYCLE_STATES = ("initialize", "compute", "emergency", "finalize")
 Result = TypeVar("Result")
 Report = Callable[[str], object]
 
@@ -97,8 +98,10 @@ class HostEngine:
     async def _status(self) -> DeploymentStatus:
         async with self._fleet(STATUS_TIMEOUT_S) as fleet:
             reports = await fleet.reports(usage=True)
+            denials = await latest_denials(fleet, reports)
         order = {name: i for i, name in enumerate(self.components())}
         rows = [row for report in reports.values() for row in host_rows(report)]
+        rows = [replace(row, note=row.note or denials.get(row.name, "")) for row in rows]
         for host in fleet.failures:
             rows += [
                 ProcessStatus(name, status.UNKNOWN, note="its host does not answer", host=host)
@@ -276,39 +279,6 @@ def run_async(work: Coroutine[Any, Any, Result]) -> Result:
 
 def _describe_failure(error: HostError) -> str:
     return f"{error.message}; {error.help}" if error.help else error.message
-
-
-def host_rows(report: HostReport) -> list[ProcessStatus]:
-    """The status of the components that are deployed on a host."""
-    manifest = stored_manifest(report)
-    if manifest is None:
-        return []
-    missing = UnitState("not-found", "inactive", "dead")
-    return [
-        component_status(component, report.states.get(component.unit, missing))
-        for component in manifest.components
-    ]
-
-
-def component_status(component: HostedComponent, state: UnitState) -> ProcessStatus:
-    """The status of one component. Its lifecycle is what it told systemd."""
-    life, _, reason = state.text.partition(": ")
-    if life not in LIFECYCLE_STATES:
-        life, reason = "", state.text
-    note = state.note or (reason if state.pid else "")
-    return ProcessStatus(
-        component.name,
-        state.state,
-        pid=state.pid,
-        up_s=state.up_s,
-        restarts=state.restarts,
-        cpu=state.cpu,
-        memory=state.memory,
-        note=note,
-        life=life if state.pid and not component.is_program else "",
-        members=tuple((name, life) for name in component.member_names) if state.pid else (),
-        host=component.host,
-    )
 
 
 async def show_last_lines(

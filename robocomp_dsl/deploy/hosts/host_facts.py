@@ -142,11 +142,12 @@ async def fetch_facts(connection: HostConnection, deployment: str = "") -> HostF
 
 
 async def _fetch(connection: HostConnection, process: HostProcess) -> HostFacts:
-    line = b" "
+    line, printed = b" ", b""
     while line and not line.startswith(MARK):  # a login script may print something first
+        printed = line.strip() or printed
         line = await process.readline()
     if not line:
-        raise await _no_report(connection, process)
+        raise await _no_report(connection, process, printed)
     try:
         clock = await measure_offset(process)
         facts = parse_facts(json.loads(line.removeprefix(MARK)), clock)
@@ -157,12 +158,14 @@ async def _fetch(connection: HostConnection, process: HostProcess) -> HostFacts:
     return facts
 
 
-async def _no_report(connection: HostConnection, process: HostProcess) -> HostError:
+async def _no_report(connection: HostConnection, process: HostProcess, printed: bytes) -> HostError:
+    """Why there are no facts; `printed` is the last line of the output."""
     result = await process.close()
     name = describe_host(connection.host)
     required = ".".join(map(str, MIN_PYTHON))
     if result.code == _NOT_FOUND:
         remedy = f"install Python {required} or newer on the host, as `python3` in PATH"
         return HostRefused(f"{name}: there is no Python", remedy, codes.PYTHON)
-    reason = result.error.splitlines()[-1] if result.error else f"exit code {result.code}"
+    lines = result.error.splitlines() or printed.decode("utf-8", "replace").splitlines()
+    reason = lines[-1] if lines else f"exit code {result.code}"
     return HostRefused(f"{name}: Python does not run there: {reason}", "", codes.PYTHON)

@@ -10,7 +10,7 @@ import asyncio
 import heapq
 import json
 import time
-from collections.abc import AsyncGenerator, AsyncIterator, Callable, Collection, Iterable
+from collections.abc import AsyncGenerator, AsyncIterator, Callable, Collection, Iterable, Mapping
 from contextlib import aclosing
 from dataclasses import dataclass, field
 from itertools import count
@@ -35,11 +35,20 @@ REORDER_S = 0.4
 
 @dataclass(frozen=True, slots=True)
 class LogRequest:
-    """Which lines: of these components (empty: all), since a time, the last ones of each file."""
+    """Which lines: of these components (empty: all), since a time, the last ones of each file.
+
+    `members` are the components of groups that run in one process, by name of the group.
+    """
 
     components: Collection[str] = ()
     since: float = 0.0
     last: int = -1
+    members: Mapping[str, Collection[str]] = field(default_factory=dict)
+
+    def files(self) -> list[str]:
+        """The processes with logs of the components; empty: all."""
+        owners = {member: group for group, names in self.members.items() for member in names}
+        return sorted({owners.get(name, name) for name in self.components})
 
 
 @dataclass(slots=True)
@@ -80,7 +89,7 @@ class HostLogReader:
         return json.dumps(
             {
                 "root": root_folder(self.deployment),
-                "components": sorted(self.request.components),
+                "components": self.request.files(),
                 "offsets": self.offsets,
                 "last": self.request.last,
                 "since": self.request.since,
@@ -90,7 +99,10 @@ class HostLogReader:
 
     def _records(self, head: dict[str, Any], data: bytes, is_live: bool) -> list[LogRecord]:
         component = str(head["component"])
-        files = self._files.setdefault(component, FileRecords(component, self.host.name))
+        files = self._files.get(component)
+        if files is None:
+            members = self.request.members.get(component, ())
+            files = self._files[component] = FileRecords(component, self.host.name, members)
         if is_live:
             files.arrived(float(head["time"]))
         self.offsets[component] = int(head["offset"]) + len(data)
@@ -112,13 +124,15 @@ class _Frames:
 
     async def next_head(self) -> dict[str, Any]:
         """The next JSON line; empty at the end."""
-        while (end := self._buffer.find(b"\n")) < 0:
-            if not await self._fill():
-                return {}
-        line = bytes(self._buffer[:end])
-        del self._buffer[: end + 1]
-        head = json.loads(line)
-        return head if isinstance(head, dict) else {}
+        line = b""
+        while not line.startswith(b"{"):  # a login script may print something
+            while (end := self._buffer.find(b"\n")) < 0:
+                if not await self._fill():
+                    return {}
+            line = bytes(self._buffer[:end])
+            del self._buffer[: end + 1]
+        head: dict[str, Any] = json.loads(line)
+        return head
 
     async def take(self, length: int) -> bytes:
         """The next `length` bytes. Raises `HostUnreachable` if they do not come."""

@@ -37,7 +37,8 @@ class UnitState:
     """The state of a unit. `up_s`: since it runs; `revision`: of the unit that the process runs.
 
     `memory` in bytes and `cpu` (1.0: a core) include children. `text` is what the process said.
-    `operations` counts what this deployer has requested of the unit before.
+    `operations` counts what this deployer has requested of the unit before. `was_ready`: since its
+    last start; `failed_too_often`: systemd will not start it again.
     """
 
     load: str
@@ -55,18 +56,24 @@ class UnitState:
     cpu: float = 0.0
     has_job: bool = False
     operations: int = 0
+    was_ready: bool = False
+    failed_too_often: bool = False
 
     @staticmethod
     def from_properties(fields: Mapping[str, Any], monotonic: float) -> UnitState:
         """From the output of `systemctl show`; `monotonic` is the time on the host [s]."""
         entered = int(fields.get("ActiveEnterTimestampMonotonic") or 0) / 1e6
+        started = int(fields.get("InactiveExitTimestampMonotonic") or 0) / 1e6
+        restarts, limit = int(fields.get("NRestarts") or 0), int(fields.get("StartLimitBurst") or 0)
+        # systemd keeps the result of the last run, and counts the restart that it refused.
+        refused = fields.get("ActiveState") == "failed" and 0 < limit <= restarts
         return UnitState(
             load=str(fields.get("LoadState", "")),
             active=str(fields.get("ActiveState", "")),
             sub=str(fields.get("SubState", "")),
             result=str(fields.get("Result", "")),
             pid=int(fields.get("MainPID") or 0),
-            restarts=int(fields.get("NRestarts") or 0),
+            restarts=restarts - refused,
             code=str(fields.get("ExecMainCode", "")),
             exit_status=str(fields.get("ExecMainStatus", "")),
             text=str(fields.get("StatusText", "")),
@@ -76,6 +83,8 @@ class UnitState:
             cpu=float(fields.get("Cpu", 0.0)),
             operations=int(fields.get("Operations", 0)),
             has_job=str(fields.get("Job", "0")) not in ("", "0"),
+            was_ready=entered >= started > 0.0,
+            failed_too_often=refused,
         )
 
     @property
@@ -103,11 +112,14 @@ class UnitState:
         return self._failure()
 
     def _failure(self) -> str:
-        if self.result in ("exit-code", "signal", "core-dump"):
+        if self.failed_too_often or self.result == "start-limit-hit":
+            return f"failed too often: {self._last_failure()}"
+        return self._last_failure()
+
+    def _last_failure(self) -> str:
+        if self.result in ("exit-code", "signal", "core-dump", "start-limit-hit"):
             return self._exit()
-        if self.result == "start-limit-hit":
-            return f"failed too often: {self._exit()}"
-        if self.result == "timeout" and self.sub.startswith(("stop", "final")):
+        if self.result == "timeout" and self.was_ready:
             return "did not exit in time and was killed"
         return _RESULTS.get(self.result, self.result)
 

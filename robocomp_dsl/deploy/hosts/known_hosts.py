@@ -97,29 +97,27 @@ def key_type(key: SSHKey) -> str:
 
 
 def add_key(host: str, key: SSHKey) -> None:
-    """Add the key of `host` (as from `host_id`) to robocomp's own file. Raises `OSError`."""
+    """Add the key of `host` (as from `host_id`) to robocomp's own file. Raises `OSError`.
+
+    The line is appended at once: another rcdeploy may add one at the same time.
+    """
     algorithm, data = key.export_public_key("openssh").decode("ascii").split()[:2]
-    lines = _read_lines()
-    _write_lines([*lines, f"{host} {algorithm} {data}"])
+    path = own_file()
+    path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    descriptor = os.open(path, os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_CLOEXEC, 0o600)
+    with os.fdopen(descriptor, "r+b", buffering=0) as file:
+        begin = b"" if file.read()[-1:] in {b"", b"\n"} else b"\n"
+        file.write(begin + f"{host} {algorithm} {data}\n".encode())
 
 
 def remove_keys(keys: list[KnownKey]) -> None:
     """Remove those of `keys` that are in robocomp's own file. Raises `OSError`."""
-    numbers = {key.line for key in keys if key.path == own_file()}
-    lines = _read_lines()
-    _write_lines([line for number, line in enumerate(lines, 1) if number not in numbers])
-
-
-def _read_lines() -> list[str]:
-    try:
-        return own_file().read_text("utf-8").splitlines()
-    except FileNotFoundError:
-        return []
-
-
-def _write_lines(lines: list[str]) -> None:
     path = own_file()
-    path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    numbers = {key.line for key in keys if key.path == path}
+    if not numbers:
+        return
+    lines = path.read_text("utf-8").splitlines()
+    rest = [line for number, line in enumerate(lines, 1) if number not in numbers]
     with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False, encoding="utf-8") as draft:
-        draft.write("".join(f"{line}\n" for line in lines))
+        draft.write("".join(f"{line}\n" for line in rest))
     Path(draft.name).replace(path)

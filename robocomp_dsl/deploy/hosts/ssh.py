@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import secrets
 import shlex
 from collections.abc import AsyncIterator, Sequence
-from pathlib import Path, PurePosixPath
-from typing import cast
 
 import asyncssh
 
-from robocomp_dsl.deploy.hosts import codes
 from robocomp_dsl.deploy.hosts.address import describe_host
 from robocomp_dsl.deploy.hosts.commands import (
     COMMAND_TIMEOUT_S,
@@ -23,18 +19,17 @@ from robocomp_dsl.deploy.hosts.commands import (
 from robocomp_dsl.deploy.hosts.error_tail import ErrorTail
 from robocomp_dsl.deploy.hosts.errors import (
     HostError,
-    HostRefused,
     HostTimeout,
     HostUnreachable,
-    HostWriteError,
 )
-from robocomp_dsl.deploy.hosts.ssh_client import HostKeyCheck, open_connection
+from robocomp_dsl.deploy.hosts.ssh_client import HostKeyCheck, describe_loss, open_connection
+from robocomp_dsl.deploy.hosts.ssh_files import SshFiles
 from robocomp_dsl.model.deployment import Host
 
 CHUNK_BYTES = 65536
 MAX_COMMANDS = 5
 """Commands at a time; sshd accepts 10 sessions over one connection, and SFTP needs another."""
-MAX_UPLOADS = 16
+CLOSE_TIMEOUT_S = 1.0
 
 
 async def connect_ssh(host: Host) -> SshConnection:
@@ -104,10 +99,7 @@ class SshConnection:
         self._connection = connection
         self._check = check
         self._commands = asyncio.Semaphore(MAX_COMMANDS)
-        self._uploads = asyncio.Semaphore(MAX_UPLOADS)
-        self._sftp: asyncssh.SFTPClient | None = None
-        self._sftp_lock = asyncio.Lock()
-        self._folders: set[str] = set()
+        self._files = SshFiles(host, connection, check)
 
     # -------------------------------------------------------------- commands
 
@@ -121,6 +113,8 @@ class SshConnection:
                 async with asyncio.timeout(timeout_s):
                     return await self.wait_for(process, input)
             except TimeoutError:
+                with contextlib.suppress(OSError, asyncssh.Error):
+                    process.terminate()
                 name = describe_host(self.host)
                 text = f"{name}: `{command[0]}` did not end within {timeout_s:g} s"
                 raise HostTimeout(text, "check the load of the host") from None
@@ -178,14 +172,7 @@ class SshConnection:
 
     async def read(self, path: str) -> bytes | None:
         """The content of a file; None if it does not exist."""
-        sftp = await self._files()
-        try:
-            async with sftp.open(path, "rb") as file:
-                return cast("bytes", await file.read())
-        except (asyncssh.SFTPNoSuchFile, asyncssh.SFTPNoSuchPath):
-            return None
-        except (OSError, asyncssh.Error) as error:
-            raise await self._file_error("read", path, error) from None
+        return await self._files.read(path)
 
     async def write(self, path: str, data: bytes, mode: int = 0o644) -> None:
         """Replace a file at once; its folders are created."""
@@ -193,86 +180,13 @@ class SshConnection:
 
     async def upload(self, files: Sequence[Upload]) -> None:
         """Write files, each at once; their folders are created."""
-        sftp = await self._files()
-        try:
-            async with asyncio.TaskGroup() as tasks:
-                for file in files:
-                    tasks.create_task(self._upload(sftp, file))
-        except* HostError as errors:
-            raise _first(errors) from None
-
-    async def _upload(self, sftp: asyncssh.SFTPClient, file: Upload) -> None:
-        async with self._uploads:
-            draft = f"{file.remote}.{secrets.token_hex(4)}~"
-            try:
-                await self._make_folder(sftp, str(PurePosixPath(file.remote).parent))
-                attributes = asyncssh.SFTPAttrs(permissions=file.mode)
-                async with sftp.open(draft, "wb", attributes) as target:
-                    if isinstance(file.local, Path):
-                        await _copy(file.local, target)
-                    else:
-                        await target.write(file.local)
-                    await target.setstat(attributes)  # the umask of the host changed it
-                await sftp.posix_rename(draft, file.remote)
-            except (OSError, asyncssh.Error) as error:
-                described = await self._file_error("write", file.remote, error)
-                with contextlib.suppress(OSError, asyncssh.Error):
-                    await sftp.remove(draft)
-                raise described from None
-
-    async def _make_folder(self, sftp: asyncssh.SFTPClient, folder: str) -> None:
-        if folder not in self._folders:
-            await sftp.makedirs(folder, exist_ok=True)
-            self._folders.add(folder)
-
-    async def _files(self) -> asyncssh.SFTPClient:
-        async with self._sftp_lock:
-            if self._sftp is None:
-                try:
-                    self._sftp = await self._connection.start_sftp_client()
-                except (OSError, asyncssh.Error) as error:
-                    raise self._sftp_error(error) from None
-            return self._sftp
-
-    def _sftp_error(self, error: Exception) -> HostError:
-        if self._check.lost or isinstance(error, asyncssh.ConnectionLost):
-            return self.describe_loss(error)
-        return HostRefused(
-            f"{describe_host(self.host)}: its SSH server offers no SFTP",
-            "add the line `Subsystem sftp internal-sftp` to /etc/ssh/sshd_config of the host, and "
-            "let it read it: `systemctl reload ssh`",
-            codes.SYSTEMD,
-        )
-
-    async def _file_error(self, verb: str, path: str, error: Exception) -> HostError:
-        if self._check.lost or isinstance(error, asyncssh.ConnectionLost):
-            return self.describe_loss(error)
-        name = describe_host(self.host)
-        if verb == "write" and await self._is_full(path):
-            return HostWriteError(
-                f"{name}: cannot write {path}: no space is left", "delete files on the host"
-            )
-        reason = getattr(error, "reason", "") or getattr(error, "strerror", "") or error
-        return HostWriteError(f"{name}: cannot {verb} {path}: {reason}")
-
-    async def _is_full(self, path: str) -> bool:
-        if self._sftp is None:
-            return False
-        try:
-            status = await self._sftp.statvfs(str(PurePosixPath(path).parent))
-        except (OSError, asyncssh.Error):
-            return False
-        return status.bavail * status.frsize < CHUNK_BYTES or status.favail == 0
+        await self._files.upload(files)
 
     # ------------------------------------------------------------------ life
 
     def describe_loss(self, error: Exception) -> HostError:
         """The error of an operation whose connection may have ended."""
-        name = describe_host(self.host)
-        if isinstance(error, asyncssh.ChannelOpenError) and "closed" not in error.reason:
-            return HostRefused(f"{name}: the SSH server refuses a session: {error.reason}")
-        reason = self._check.lost or error
-        return HostUnreachable(f"{name}: the connection was lost: {reason}")
+        return describe_loss(self.host, self._check, error)
 
     def check_open(self) -> None:
         """Raise `HostUnreachable` if the connection has ended."""
@@ -283,18 +197,8 @@ class SshConnection:
         """End the connection."""
         self._connection.close()
         with contextlib.suppress(OSError, asyncssh.Error):
-            await self._connection.wait_closed()
-
-
-async def _copy(source: Path, target: asyncssh.SFTPClientFile) -> None:
-    with source.open("rb") as file:
-        while chunk := file.read(1 << 20):
-            await target.write(chunk)
-
-
-def _first(errors: BaseExceptionGroup[HostError]) -> HostError:
-    """One error for the user; the others have the same cause."""
-    error: BaseException = errors
-    while isinstance(error, BaseExceptionGroup):
-        error = error.exceptions[0]
-    return error if isinstance(error, HostError) else HostError(str(error))
+            try:
+                async with asyncio.timeout(CLOSE_TIMEOUT_S):
+                    await self._connection.wait_closed()
+            except TimeoutError:  # the link is cut: what is not sent yet never will be
+                self._connection.abort()

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from robocomp_dsl.deploy.hosts import codes, known_hosts
 from robocomp_dsl.deploy.hosts.address import describe_host, ssh_arguments
-from robocomp_dsl.deploy.hosts.errors import HostError, HostRefused, HostUnreachable
+from robocomp_dsl.deploy.hosts.errors import ANY_FILE, HostError, HostRefused, HostUnreachable
 from robocomp_dsl.extras import MissingExtra
 from robocomp_dsl.model.deployment import Host
 
@@ -45,6 +45,11 @@ class HostKeyCheck(asyncssh.SSHClient):
         self.known: list[KnownKey] = []
         self.presented: asyncssh.SSHKey | None = None
         self.lost: Exception | None = None
+        self._connection: asyncssh.SSHClientConnection | None = None
+
+    def connection_made(self, conn: asyncssh.SSHClientConnection) -> None:
+        """Keep the connection, which knows an accepted key."""
+        self._connection = conn
 
     def lookup(self, host: str, address: str, port: int | None) -> Any:
         """The confirmed keys, for asyncssh; `port` None: that of SSH."""
@@ -55,7 +60,8 @@ class HostKeyCheck(asyncssh.SSHClient):
     @property
     def has_seen_no_key(self) -> bool:
         """Whether the host may have no key of the kind of the confirmed keys."""
-        return bool(self.known) and self.presented is None
+        key = self._connection.get_server_host_key() if self._connection else None
+        return bool(self.known) and self.presented is None and key is None
 
     def validate_host_public_key(self, *server: Any) -> bool:
         """Refuse a key that is not confirmed: the last of `host`, `address`, `port` and `key`."""
@@ -106,47 +112,62 @@ def describe_error(host: Host, check: HostKeyCheck, error: Exception) -> HostErr
     """Why `host` cannot be used, and what to do."""
     name = describe_host(host)
     match error:
-        case asyncssh.HostKeyNotVerifiable() | asyncssh.KeyExchangeFailed():
-            described: HostError = _host_key_error(name, host, check, error)
+        case OSError() | asyncssh.ConnectionLost():
+            return _network_error(name, host, error)
+        case asyncssh.ConfigParseError():
+            text = f"{name}: ~/.ssh/config has an error: {error}"
+            return HostRefused(text, "correct that file")
+        case asyncssh.KeyImportError() | asyncssh.KeyEncryptionError():
+            return HostRefused(f"{name}: an SSH key of yours cannot be read: {error}")
+        case asyncssh.DisconnectError():
+            return _handshake_error(name, host, check, error)
+    return HostRefused(f"{name}: {error}")
+
+
+def _handshake_error(
+    name: str, host: Host, check: HostKeyCheck, error: asyncssh.DisconnectError
+) -> HostError:
+    """Why the two programs do not come together."""
+    described: HostError
+    match error:
+        case asyncssh.HostKeyNotVerifiable() | asyncssh.PermissionDenied() if not check.id:
+            text = f"{name}: the jump host of ~/.ssh/config cannot be used: {error.reason}"
+            described = HostRefused(text, f"try `ssh {ssh_arguments(host)}`")
+        case asyncssh.HostKeyNotVerifiable():
+            described = _host_key_error(name, host, check, error)
         case asyncssh.PermissionDenied():
             described = _login_error(name, host)
-        case TimeoutError():
-            text = f"{name}: no answer within {CONNECT_TIMEOUT_S:g} s"
-            described = HostUnreachable(text, _reachability_help(host))
-        case asyncssh.ConnectionLost() | ConnectionResetError() | BrokenPipeError():
-            text = f"{name}: the connection was closed before the login"
-            remedy = "check the port of the address, and the log of the server: `journalctl -u ssh`"
-            described = HostUnreachable(text, remedy)
+        case asyncssh.KeyExchangeFailed():
+            text = f"{name}: there is no SSH algorithm in common: {error.reason}"
+            described = HostRefused(text, "update the SSH server of the host")
         case asyncssh.ProtocolError() | asyncssh.ProtocolNotSupported():
             text = f"{name}: what answers at the address is no SSH server ({error.reason})"
             described = HostUnreachable(text, "check the port of the address")
-        case asyncssh.ConfigParseError():
-            text = f"{name}: ~/.ssh/config has an error: {error}"
-            described = HostRefused(text, "correct that file")
-        case asyncssh.DisconnectError():
-            described = HostRefused(f"{name}: the host ended the connection: {error.reason}")
-        case asyncssh.KeyImportError() | asyncssh.KeyEncryptionError():
-            described = HostRefused(f"{name}: an SSH key of yours cannot be read: {error}")
-        case OSError():
-            described = _network_error(name, host, error)
         case _:
-            described = HostRefused(f"{name}: {error}")
+            described = HostRefused(f"{name}: the host ended the connection: {error.reason}")
     return described
 
 
-def _network_error(name: str, host: Host, error: OSError) -> HostUnreachable:
-    if isinstance(error, socket.gaierror):
-        text = f"{name}: the name `{host.address}` has no address ({error.strerror})"
-        return HostUnreachable(text, "correct the name, or write an IP address")
-    if isinstance(error, ConnectionRefusedError):
-        port = f"port {host.ssh_port}" if host.ssh_port else "the port of SSH"
-        text = f"{name}: the computer answers, but nothing listens at {port}"
-        remedy = "start its SSH server (`systemctl start ssh`), or correct the port of the address"
-        return HostUnreachable(text, remedy)
-    if error.errno in {errno.EHOSTUNREACH, errno.ENETUNREACH}:
-        return HostUnreachable(f"{name}: no way to the address", _reachability_help(host))
-    # asyncio joins the errors of all addresses of a name into one text.
-    return HostUnreachable(f"{name}: {error.strerror or error}", _reachability_help(host))
+def _network_error(name: str, host: Host, error: Exception) -> HostUnreachable:
+    remedy = _reachability_help(host)
+    match error:
+        case TimeoutError():
+            text = f"no answer within {CONNECT_TIMEOUT_S:g} s"
+        case asyncssh.ConnectionLost() | ConnectionResetError() | BrokenPipeError():
+            text = "the connection was closed before the login"
+            remedy = "check the port of the address, and the log of the server: `journalctl -u ssh`"
+        case socket.gaierror():
+            text = f"the name `{host.address}` has no address ({error.strerror})"
+            remedy = "correct the name, or write an IP address"
+        case ConnectionRefusedError():
+            port = f"port {host.ssh_port}" if host.ssh_port else "the port of SSH"
+            text = f"the computer answers, but nothing listens at {port}"
+            remedy = "start its SSH server (`systemctl start ssh`), or correct the port"
+        case OSError(errno=errno.EHOSTUNREACH | errno.ENETUNREACH):
+            text = "no way to the address"
+        case _:  # asyncio joins the errors of all addresses of a name into one text
+            text = getattr(error, "strerror", None) or str(error)
+    return HostUnreachable(f"{name}: {text}", remedy)
 
 
 def _reachability_help(host: Host) -> str:
@@ -161,7 +182,7 @@ def _login_error(name: str, host: Host) -> HostRefused:
 
 
 def _host_key_error(name: str, host: Host, check: HostKeyCheck, error: Exception) -> HostRefused:
-    trust = f"rcdeploy hosts trust APP.ddsl {host.name}"
+    trust = f"rcdeploy hosts trust {ANY_FILE} {host.name}"
     revoked = [key for key in check.known if key.kind == known_hosts.REVOKED]
     pinned = [key for key in check.known if not key.kind]
     shown = check.presented
@@ -182,3 +203,12 @@ def _host_key_error(name: str, host: Host, check: HostKeyCheck, error: Exception
         return HostRefused(f"{name}: {error}", "", codes.UNKNOWN_KEY)
     message = f"{name}: its host key is not confirmed yet:{text}"
     return HostRefused(message, f"compare and confirm it: `{trust}`", codes.UNKNOWN_KEY)
+
+
+def describe_loss(host: Host, check: HostKeyCheck, error: Exception) -> HostError:
+    """The error of an operation on an open connection, which may have ended."""
+    name = describe_host(host)
+    if isinstance(error, asyncssh.ChannelOpenError) and "closed" not in error.reason:
+        remedy = "allow more sessions: `MaxSessions` in /etc/ssh/sshd_config of the host"
+        return HostRefused(f"{name}: the SSH server refuses a session: {error.reason}", remedy)
+    return HostUnreachable(f"{name}: the connection was lost: {check.lost or error}")

@@ -18,7 +18,9 @@ from robocomp_dsl.deploy.units.quoting import argument, assignment, command_line
 from robocomp_dsl.model.deployment import Readiness
 
 REVISION_VARIABLE = "ROBOCOMP_UNIT"
-RESTART_DELAY_S = 0.1
+RESTART_DELAY_S = 0.0
+"""0 restarts at once; any other delay lasts up to 0.25 s longer, the accuracy of systemd's timers.
+The start limit ends a crash loop."""
 GRACE_S = 5.0
 """Time between SIGTERM and SIGKILL; the runtime ends a component within 4.5 s."""
 MARGIN = 0.5
@@ -115,7 +117,7 @@ def _start(hosted: HostedProcess, log: str) -> Iterator[str]:
     yield f"Type={'notify' if sends_ready else 'exec'}"
     yield "NotifyAccess=all"
     yield f"WorkingDirectory={path(str(process.cwd), HOST_PATHS)}"
-    yield f"ExecStartPre={log_mark('starting')}"
+    yield f"ExecStartPre=-{log_mark('starting')}"
     yield f"ExecStart={_words(_command(process))}"
     if not sends_ready:
         yield f"ExecStartPost={_readiness(hosted, log)}"
@@ -167,7 +169,7 @@ def _end(process: Process) -> Iterator[str]:
     yield "KillMode=control-group"
     yield f"TimeoutStopSec={GRACE_S:g}"
     yield "SuccessExitStatus=143"
-    yield f"ExecStopPost={log_mark(END_TEXT)}"
+    yield f"ExecStopPost=-{log_mark(END_TEXT)}"
 
 
 def _environment(hosted: HostedProcess) -> Iterator[str]:

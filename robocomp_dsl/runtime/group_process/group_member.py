@@ -6,6 +6,7 @@ In: its folder and arguments. Out: it is loaded, ready, ended; whether it failed
 from __future__ import annotations
 
 import logging
+import os
 import threading
 from collections.abc import Callable
 
@@ -81,6 +82,8 @@ class GroupMember:
             log.error("the folder %s cannot be opened: %s", folder, error.strerror)  # noqa: TRY400
             return False
         self.has_own_folder = own_folder(context)
+        if not self.has_own_folder:
+            os.chdir(folder)  # members are loaded one after the other
         modules = ComponentModules(self.name, folder)
         context.builtins = modules.builtins
         worker = self._worker_class(modules)

@@ -15,6 +15,7 @@ from robocomp_dsl.runtime.component.thread_context import (
 )
 from robocomp_dsl.runtime.entry_point import on_signals
 from robocomp_dsl.runtime.group_process.arguments import parse_arguments
+from robocomp_dsl.runtime.group_process.member_output import MemberOutput
 from robocomp_dsl.runtime.group_process.running_group import RunningGroup
 
 
@@ -29,9 +30,17 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     logs.set_up(arguments.name, arguments.log_level, arguments.log_format, component_of)
     inherit_contexts()
+    outputs: list[MemberOutput] = []
+    if arguments.log_format == "json":
+        sys.stdout, sys.stderr = outputs = [
+            MemberOutput(sys.stdout, "stdout"),
+            MemberOutput(sys.stderr, "stderr"),
+        ]
     group = RunningGroup(arguments)
     on_signals(group.stop)
     code = group.run()
+    for output in outputs:
+        output.finish()
     if group.abandoned:
         exit_now(1)  # a thread of a member hangs
     return code

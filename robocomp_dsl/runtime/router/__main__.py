@@ -20,6 +20,8 @@ from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.router.router_settings import read_router_settings
 
 log = logging.getLogger("robocomp.router")
+RETRY_S = 1.0
+"""systemd starts a router again at once: one that cannot start exits not sooner than that."""
 _SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 
 
@@ -41,6 +43,7 @@ def main(arguments: list[str] | None = None) -> int:
         router = Router(settings)
     except MiddlewareError as error:
         log.critical("%s", error)
+        signal.sigtimedwait(_SIGNALS, RETRY_S)
         return 1
     notifier = SystemdNotifier()
     listens = f"listens at {', '.join(settings.listen)}"

@@ -12,7 +12,7 @@ import pytest
 from packaging.requirements import Requirement
 
 import robocomp_dsl
-from robocomp_dsl.deploy.content import distributions, lock
+from robocomp_dsl.deploy.content import distributions, lock, wheelhouse
 from robocomp_dsl.deploy.content.describe import describe_trees
 from robocomp_dsl.deploy.content.hash_cache import HashCache
 from robocomp_dsl.deploy.content.lock import Environment, EnvironmentLocker
@@ -212,3 +212,25 @@ def test_wheel_store_names_what_cannot_be_had(
     (problem,) = problems  # platformdirs is pure Python: it fits every host
     assert problem.message.startswith("there is no wheel of uv==")
     assert problem.message.endswith("for Python 3.12 on aarch64 with glibc 2.31")
+
+
+def test_wheel_store_names_missing_uv(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(wheelhouse, "find_installed", lambda _: None)
+    environment = Environment("3.12", ROBOT.platform, "0+host.0", ())
+    house, (problem,) = WheelStore(tmp_path).collect(environment, ROBOT)
+    assert house is None
+    assert "robocomp_dsl[hosts]" in problem.help
+
+
+def test_packaging_library_names_its_extra() -> None:
+    code = """
+import sys; sys.modules["packaging.requirements"] = None
+from robocomp_dsl.extras import MissingExtra
+try:
+    import robocomp_dsl.deploy.content.host_content
+except MissingExtra as error:
+    assert error.extra == "hosts"
+    print(error)
+"""
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "pip install 'robocomp_dsl[hosts]'" in run.stdout

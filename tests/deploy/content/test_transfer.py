@@ -7,7 +7,6 @@ import contextlib
 import hashlib
 import json
 import os
-import sys
 from collections.abc import AsyncIterator, Sequence
 from pathlib import Path
 
@@ -29,6 +28,7 @@ from robocomp_dsl.deploy.hosts.commands import CommandResult
 from robocomp_dsl.deploy.hosts.connection import HostProcess
 from robocomp_dsl.deploy.hosts.errors import HostError, HostUnreachable, HostWriteError
 from robocomp_dsl.deploy.hosts.local import LocalConnection
+from tests.deploy.content.killed_child import killed_at
 from tests.deploy.content.workspace_files import ROOT, local_connection, write_files
 
 SMALL = {
@@ -226,34 +226,6 @@ def test_upload_trees_continues_after_a_cut_link(
     check_folder(home, tree)
 
 
-def run_until(step: int, function: str, request: dict[str, object]) -> bool:
-    """Call a function of the host in a child that is killed at one step of the file system.
-
-    False if the function ended before that step.
-    """
-    child = os.fork()
-    if child == 0:
-        steps = 0
-
-        def kill_at_step(event: str, _: object) -> None:
-            nonlocal steps
-            if event == "open" or event.startswith(("os.", "shutil.")):
-                steps += 1
-                if steps == step:
-                    os._exit(9)
-
-        try:
-            sys.addaudithook(kill_at_step)
-            getattr(host_files, function)(request)
-            os._exit(0)
-        finally:
-            os._exit(1)
-    _, status = os.waitpid(child, 0)
-    code = os.waitstatus_to_exitcode(status)
-    assert code in (0, 9)
-    return code == 9
-
-
 def test_host_files_are_complete_wherever_the_host_dies(tmp_path: Path, home: Path) -> None:
     large = os.urandom(host_files.COPIED_BYTES + 1)
     files = {**SMALL, "arm/bin/model": large}
@@ -279,7 +251,7 @@ def test_host_files_are_complete_wherever_the_host_dies(tmp_path: Path, home: Pa
     killed = 0
     for function, request in requests:
         step = 1
-        while run_until(step, function, {"root": root, **request}):
+        while killed_at(step, getattr(host_files, function), {"root": root, **request}):
             check_folder(home, tree)
             killed += 1
             step += 1

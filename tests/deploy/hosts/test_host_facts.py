@@ -150,7 +150,8 @@ def test_fact_script_is_python_3_6() -> None:
     assert "__future__" not in text, "annotations as a feature are Python 3.7"
 
 
-def test_fact_script_reports_this_machine() -> None:
+def test_fact_script_reports_this_machine(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}:/bin")
     command = [sys.executable, "-I", "-S", str(SCRIPT), "app"]
     output = subprocess.run(command, input=b"\n\n", capture_output=True, check=True).stdout
     first, *times = output.splitlines()
@@ -168,7 +169,8 @@ def test_fact_script_tolerates_missing_programs(monkeypatch: pytest.MonkeyPatch)
     assert (facts.systemd, facts.manager, facts.pythons) == (0, "", ())
 
 
-def test_host_facts_are_fetched_from_this_machine() -> None:
+def test_host_facts_are_fetched_from_this_machine(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}:/bin")
     async def fetch() -> HostFacts:
         return await fetch_facts(await connect(Host("here", "localhost")), "app")
 

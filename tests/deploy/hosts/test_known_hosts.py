@@ -78,6 +78,14 @@ def test_known_hosts_replaces_only_own_keys(home: Path) -> None:
     assert known_hosts.own_file().parent.stat().st_mode & 0o777 == 0o700
 
 
+def test_known_hosts_appends_to_edited_file(home: Path) -> None:
+    known_hosts.own_file().parent.mkdir(parents=True)
+    known_hosts.own_file().write_text(f"base {LINES[0]}", "utf-8")  # no line end
+    known_hosts.add_key("robot", KEYS[1])
+    expected = f"base {LINES[0]}\nrobot {LINES[1]}\n"
+    assert known_hosts.own_file().read_text("utf-8") == expected
+
+
 def test_known_hosts_describes_keys_as_ssh_keygen(tmp_path: Path) -> None:
     assert known_hosts.fingerprint(KEYS[0]).startswith("SHA256:")
     assert known_hosts.key_type(KEYS[0]) == "ED25519"

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from robocomp_dsl.deploy.hosts import log_script
+from robocomp_dsl.deploy.hosts.denials import latest_denial
 from robocomp_dsl.deploy.hosts.host_logs import SCRIPT
 from robocomp_dsl.deploy.hosts.log_records import FileRecords
 from robocomp_dsl.host_tools import trim_logs
@@ -104,3 +105,13 @@ def test_file_records_date_lines_without_time() -> None:
     records.arrived(9.0)
     assert records.feed(b"now\n", 100.0)[0].time == 9.0
     assert records.feed(b"", 0.0) == []
+
+
+def test_denial_is_described_with_its_age() -> None:
+    def warning(at: float, text: str) -> str:
+        return json.dumps({"time": at, "level": "WARNING", "message": text}) + "\n"
+
+    log = f"cut line\n{warning(10.0, 'denied: eye publishes x')}{warning(40.0, 'slow')}"
+    assert latest_denial("router.robot", log, 52.0) == "42.0 s ago: denied: eye publishes x"
+    assert latest_denial("router.robot", log, 9999.0) == ""
+    assert latest_denial("router.robot", "", 1.0) == ""

@@ -11,6 +11,7 @@ from tests.deploy.network.secured_deployment import (
     BOSS,
     BOSS_CODE,
     PARAMETERS,
+    TICKER,
     WORKER,
     WORKER_CODE,
     SecuredDeployment,
@@ -21,10 +22,12 @@ from tests.deploy.rcdeploy_process import runtime_folder
 
 @pytest.fixture(scope="module")
 def components(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """`boss` and `worker`, generated."""
+    """`boss`, `worker` and `ticker`, generated."""
     folder = tmp_path_factory.mktemp("components")
     generate(folder, "boss", BOSS, BOSS_CODE)
     generate(folder, "worker", WORKER, WORKER_CODE, PARAMETERS)
+    code = WORKER_CODE.replace("worker_generated", "ticker_generated")
+    generate(folder, "ticker", TICKER, code)
     return folder
 
 

@@ -20,7 +20,7 @@ from robocomp_dsl.deploy.network.access_rules import AccessRules, access_rules
 from robocomp_dsl.deploy.network.identities import common_name, identities, router_name, used_hosts
 from robocomp_dsl.deploy.network.key_folder import KeyFolder, key_folder
 from robocomp_dsl.deploy.network.operator_settings import write_operator_settings
-from robocomp_dsl.deploy.network.port_uses import Rewiring
+from robocomp_dsl.deploy.network.port_uses import AddedConnection
 from robocomp_dsl.deploy.network.router_plan import component_settings, router_settings
 from robocomp_dsl.deploy.network.update_keys import update_keys
 from robocomp_dsl.deploy.plan import plan
@@ -61,6 +61,16 @@ Component worker
     Communications { implements Job; publishes News, State; };
     language Python;
     parameters "worker.pdsl";
+};
+"""
+TICKER = """
+import "Tasks.idsl";
+import "Clock.idsl";
+Component ticker
+{
+    Communications { implements Job; publishes News, State, Clock; };
+    language Python;
+    period 10;
 };
 """
 PARAMETERS = "ComponentParams worker { gain int 1 0:100 live; };\n"
@@ -117,6 +127,21 @@ Deployment site
 """
 
 
+CLOCK_APP = """
+import "boss/boss.cdsl";
+import "ticker/ticker.cdsl";
+Deployment timed
+{{
+    host left {{ address "127.0.0.2:22"; port {left}; }};
+    host right {{ address "127.0.0.3:22"; port {right}; }};
+    component ticker on right;
+    component boss on left {{ prefix lab; }};
+    clock sim from ticker CLOCK_KIND;
+    CONNECTION
+}};
+"""
+
+
 def free_ports(number: int) -> list[int]:
     """TCP ports of all loopback addresses that are free now."""
     with contextlib.ExitStack() as stack:
@@ -165,8 +190,8 @@ class SecuredDeployment:
     def hosts(self) -> tuple[Host, ...]:
         return used_hosts(self.deployment)
 
-    def rules(self, rewirings: Sequence[Rewiring] = ()) -> AccessRules:
-        return access_rules(self.deployment, self.domain, rewirings)
+    def rules(self, added: Sequence[AddedConnection] = ()) -> AccessRules:
+        return access_rules(self.deployment, self.domain, added)
 
     def write_settings(self, rules: AccessRules | None = None) -> None:
         """Write the settings of all routers and components into the folder of the keys."""

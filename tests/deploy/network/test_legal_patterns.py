@@ -12,7 +12,7 @@ import pytest
 
 from robocomp_dsl.runtime.client import DomainClient, load_generated_interfaces
 from robocomp_dsl.runtime.presence.state_monitor import StateMonitor
-from tests.deploy.network.secured_deployment import SecuredDeployment
+from tests.deploy.network.secured_deployment import CLOCK_APP, SecuredDeployment
 from tests.deploy.rcdeploy_process import rcdeploy
 from tests.support.waiting import wait_until
 
@@ -43,7 +43,7 @@ def test_components_of_two_hosts_use_all_patterns(
         for router in routers:
             router.process.send_signal(signal.SIGTERM)
             assert router.end() == 0
-            assert not router.has("denied")
+            assert not router.has("denied"), "\n".join(router.lines)
 
 
 def _use_tools(domain: str, components: Path) -> None:
@@ -64,3 +64,28 @@ def _use_tools(domain: str, components: Path) -> None:
     assert "16" in call.stdout, call.stderr
     echo = rcdeploy("echo", "--domain", domain, "worker.News", "-n", "1")
     assert "reliable news" in echo.stdout, echo.stderr
+
+
+@pytest.mark.parametrize("kind", ["", "lockstep"], ids=["simulated clock", "lock-step"])
+def test_components_of_two_hosts_share_simulated_time(
+    components: Path, private_home: Path, monkeypatch: pytest.MonkeyPatch, kind: str
+) -> None:
+    # In lock-step every message is a call, which cannot be latched.
+    connection = "" if kind else "connect ticker.State -> boss.State {{ latched; }};"
+    app = CLOCK_APP.replace("CLOCK_KIND", kind).replace("CONNECTION", connection)
+    site = SecuredDeployment(components, app)
+    with site.routers() as routers:
+        with (
+            site.start("ticker", monkeypatch) as ticker,
+            site.start("lab/boss", monkeypatch) as boss,
+        ):
+            heard = ["boss hears reliable news"] + ([] if kind else ["boss sees latched state"])
+            boss.until("boss calls the worker", *heard)
+            ticker.until("worker starts to dig")
+            for process in (boss, ticker):
+                process.process.send_signal(signal.SIGTERM)
+                assert process.end() == 0
+        for router in routers:
+            router.process.send_signal(signal.SIGTERM)
+            assert router.end() == 0
+            assert not router.has("denied"), "\n".join(router.lines)

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import signal
+from datetime import timedelta
 from pathlib import Path
 
 import pytest
 
+from robocomp_dsl.deploy.network.router_plan import operator_endpoints
 from robocomp_dsl.runtime.client import load_generated_interfaces
 from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.errors import MiddlewareError, NoServer
 from robocomp_dsl.runtime.presence.network_settings import domain_settings_path
 from robocomp_dsl.runtime.presence.state_monitor import StateMonitor
+from tests.deploy.network.made_certificates import now, settings_with
 from tests.deploy.network.network_node import NetworkNode, open_node
 from tests.deploy.network.secured_deployment import SecuredDeployment
 from tests.support.waiting import wait_until
@@ -100,3 +103,30 @@ def test_state_monitor_reports_component_that_ends_while_its_router_is_away(
         monitor.close()
         routers[1].process.kill()
     assert ("boss", "") not in states
+
+
+def test_component_goes_on_after_its_certificate_has_expired(
+    site: SecuredDeployment, components: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """What runs is not interrupted; what connects again is refused."""
+    interface = load_generated_interfaces(components / "boss").JOB
+    end = now() + timedelta(seconds=4)
+    with site.start_router(site.hosts[0]) as router:
+        endpoints = operator_endpoints(site.deployment)[:1]
+        short = settings_with(site.keys, tmp_path, endpoints, "boss", end=end - now())
+        path = tmp_path / "boss.json"
+        path.write_text(short.to_json(tmp_path))
+        operator = domain_settings_path(site.domain)
+        with (
+            open_node(operator, "worker", site.domain, monkeypatch) as server,
+            open_node(path, "boss", site.domain, monkeypatch) as client,
+        ):
+            server.serve(interface, "Job", {"twice": lambda x: 2 * x})
+            operations = client.operations(interface, "worker.Job")
+            assert wait_until(lambda: operations["twice"](1), ignoring=MiddlewareError) == 2
+            wait_until(lambda: now() > end + timedelta(seconds=1))
+            assert operations["twice"](2) == 4
+            router.process.send_signal(signal.SIGHUP)
+            router.until("invalid peer certificate: certificate expired")
+            with pytest.raises(MiddlewareError, match="the router of this host is away"):
+                operations["twice"](3)

@@ -101,11 +101,11 @@ def test_service_unit_revision_follows_the_process() -> None:
 def test_host_units_watch_limits_without_controllers() -> None:
     processes = [hosted(limits=ResourceLimits(5, 0.5)), hosted("eye")]
 
-    def made(*controllers: str) -> dict[str, str]:
+    def units_with(*controllers: str) -> dict[str, str]:
         return host_units(processes, "patrol", root=ROOT, python=PYTHON, controllers=controllers)
 
-    assert names.limits_name("patrol") not in made("cpu", "memory")
-    [command] = settings(made("cpu")[names.limits_name("patrol")], "ExecStart")
+    assert names.limits_name("patrol") not in units_with("cpu", "memory")
+    [command] = settings(units_with("cpu")[names.limits_name("patrol")], "ExecStart")
     assert command.endswith("robocomp-patrol-arm.service arm 5 0")
 
 

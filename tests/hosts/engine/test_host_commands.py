@@ -22,7 +22,8 @@ APP = """
 
 @pytest.fixture(scope="module")
 def app(module_hosts: Hosts, tmp_path_factory: pytest.TempPathFactory) -> HostedApp:
-    module_hosts.start("robot")
+    robot = module_hosts.start("robot")
+    robot.run(["tee", ".bashrc"], input="echo Welcome to the robot\n")
     return make_app(tmp_path_factory.mktemp("deployment") / "app", module_hosts)
 
 
@@ -123,6 +124,13 @@ def test_rcdeploy_diff_and_rollback(app: HostedApp, rcdeploy: Commands) -> None:
     assert "version 2 runs" in rcdeploy("rollback", "app", "2")
 
 
+def test_rcdeploy_up_on_one_machine_needs_a_free_name(app: HostedApp, rcdeploy: Commands) -> None:
+    text = app.path.read_text()
+    app.write(APP.replace("on robot", ""))
+    assert "`app` runs on robot; stop it" in rcdeploy("up", "app.ddsl", code=1)
+    app.path.write_text(text)
+
+
 def test_rcdeploy_stop_and_start(rcdeploy: Commands) -> None:
     assert "eye (robot): stopped" in rcdeploy("stop", "app", "eye")
     assert "no component or group" in rcdeploy("stop", "app", "eey", code=1)
@@ -133,3 +141,15 @@ def test_rcdeploy_stop_and_start(rcdeploy: Commands) -> None:
     assert "exited" in rcdeploy("status", "app")
     assert "eye (robot): ready" in rcdeploy("start", "app")
     assert "app: stopped" in rcdeploy("stop", "app.ddsl")
+
+
+def test_rcdeploy_up_runs_group_in_one_process(app: HostedApp, rcdeploy: Commands) -> None:
+    app.write(f"group pair on robot {{ inprocess; {APP.replace('on robot', '')} }};")
+    rcdeploy("keys", "app.ddsl")
+    assert "pair (robot): ready" in rcdeploy("up", "app.ddsl")
+    rows = json.loads(rcdeploy("status", "app", "--format", "json"))["components"]
+    [group] = [row for row in rows if row["name"] == "pair"]
+    assert [name for name, _ in group["members"]] == ["pair-arm", "pair-eye"]
+    wait_until(lambda: "eye sees arm" in rcdeploy("logs", "app", "-c", "pair-eye"), "no logs")
+    assert "dist" in rcdeploy("call", "pair-arm.Laser.getLaserData")
+    rcdeploy("stop", "app")

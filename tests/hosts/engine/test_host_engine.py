@@ -111,6 +111,23 @@ def test_host_engine_rolls_back(app: HostedApp) -> None:
     assert not app.up().failed
 
 
+def test_host_engine_reloads_routers(app: HostedApp) -> None:
+    pids = app.pids()
+    statements = ARM + EYE.replace("component eye", "component eye2 : eye")
+    app.write(ARM + EYE + statements.partition("\n")[2])
+    app.make_keys()
+    changes = {c.component: c.verb for each in app.diff() for c in each.components}
+    assert changes == {"router.base": "reload", "router.robot": "reload", "eye2": "start"}
+    assert not app.up().failed
+    after = app.pids()
+    assert after.pop("eye2")
+    assert after == pids
+    app.write(ARM + EYE)
+    assert not app.up().failed
+    assert "eye2" not in app.rows()
+    assert app.pids() == pids
+
+
 def test_host_engine_restarts_killed_component(app: HostedApp) -> None:
     before = app.pids()["arm"]
     kill(app, "robot", "arm")

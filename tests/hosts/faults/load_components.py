@@ -1,8 +1,9 @@
-"""Components that load a deployment, and write journals of what they did in `~/journals`.
+"""Components that load a deployment, and write journals of what they did.
 
 `caller` sends numbered commands to `ledger`, and does not repeat one. `ledger` writes each command
 that it executes, `caller` each that is acknowledged: the journals show what was lost or executed
-twice. `source` publishes numbers to `sink`, and logs each. `faulty` fails as its parameter says.
+twice. `source` publishes numbers to `sink`, and logs each. `faulty` fails as its parameter says,
+`stubborn` ignores SIGTERM.
 Times are those of the monotonic clock, which all hosts of a test share.
 """
 
@@ -29,12 +30,14 @@ COMMUNICATIONS = {
     "source": "publishes Feed;",
     "sink": "subscribesTo Feed;",
     "faulty": "",
+    "stubborn": "",
 }
 PERIODS_MS = {"caller": 5, "source": 20, "faulty": 50}
 PARAMETERS = 'ComponentParams faulty { fault string ""; };\n'
 HEAD = """
 from __future__ import annotations
 import os
+import random
 import signal
 import time
 from pathlib import Path
@@ -42,11 +45,10 @@ from {name}_generated.genericworker import GenericWorker
 from {name}_generated.interfaces import *
 from robocomp_dsl.runtime.errors import MiddlewareError
 
-JOURNALS = Path.home() / "journals"
+JOURNALS = Path("/run/host/journals")
 
 
 def open_journal(name):
-    JOURNALS.mkdir(exist_ok=True)
     return os.open(JOURNALS / name, os.O_APPEND | os.O_CREAT | os.O_WRONLY)
 
 
@@ -67,13 +69,14 @@ WORKERS = {
     "caller": """
     def initialize(self):
         self.journal, self.number = open_journal("acknowledged"), 0
+        self.identity = random.getrandbits(31)
     def compute(self):
         self.number += 1
         try:
-            self.ledger_proxy.add(os.getpid(), self.number)
+            self.ledger_proxy.add(self.identity, self.number)
         except MiddlewareError:
             return
-        write(self.journal, os.getpid(), self.number, time.monotonic())
+        write(self.journal, self.identity, self.number, time.monotonic())
 """,
     "source": """
     number = 0
@@ -90,9 +93,6 @@ WORKERS = {
 """,
     "faulty": """
     kept = b""
-    def initialize(self):
-        if self.params.fault == "ignores SIGTERM":
-            signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGTERM])
     def compute(self):
         match self.params.fault:
             case "crashes":
@@ -101,7 +101,11 @@ WORKERS = {
             case "hangs":
                 time.sleep(3600)
             case "leaks":
-                self.kept += bytes(20_000_000)
+                self.kept += bytes(5_000_000)
+""",
+    "stubborn": """
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    signal.signal = lambda *_: None  # nobody sets another handler
 """,
 }
 

@@ -19,9 +19,7 @@ from tests.support.waiting import wait_until
 
 UNDER_LOAD = ("ledger", "caller", "source", "sink")
 KILL = (
-    "import os, sys, time\n"
-    "print(time.monotonic())\n"
-    "for pid in sys.argv[1:]: os.kill(int(pid), 9)\n"
+    "import os, sys, time\nprint(time.monotonic())\nfor pid in sys.argv[1:]: os.kill(int(pid), 9)\n"
 )
 LOOK_S = 0.1
 PROPERTIES = "MainPID,ActiveState,SubState,Result,NRestarts,ActiveEnterTimestampMonotonic"
@@ -42,13 +40,17 @@ class Unit:
 class LoadedApp(HostedApp):
     """The components of `load_components` on hosts; `places` maps component to host."""
 
-    def __init__(self, folder: Path, hosts: Hosts, name: str = "load") -> None:
+    name = "load"
+
+    def __init__(self, folder: Path, hosts: Hosts) -> None:
         super().__init__(folder, hosts)
-        self.name = name
         self.places: dict[str, str] = {}
 
     def describe(self, components: dict[str, str], more: str = "") -> None:
-        """Write the DDSL file. `components`: name → host and, after a space, statements."""
+        """Write the DDSL file, and make its keys.
+
+        `components`: name → host and, after a space, statements.
+        """
         self.places = {name: text.split(" ")[0] for name, text in components.items()}
         statements = "".join(
             f"    component {name} on {host} {{ ready within 100 s; {extra} }};\n"
@@ -63,6 +65,7 @@ class LoadedApp(HostedApp):
         self.path.write_text(
             f"{imports}Deployment {self.name}\n{{\n{declared}{statements}{more}}};\n"
         )
+        self.make_keys()
 
     def host_of(self, component: str) -> SimulatedHost:
         return self.hosts.by_name[self.places[component]]
@@ -88,19 +91,18 @@ class LoadedApp(HostedApp):
         The time is that of systemd. Looking seldom leaves the processors to the components.
         """
 
-        def is_ready() -> Unit | None:
+        def ready_time() -> float:
             unit = self.unit(component)
             if unit.active == "active" and unit.ready_at > since:
-                return unit
+                return unit.ready_at
             time.sleep(LOOK_S)
-            return None
+            return 0.0
 
-        unit = wait_until(is_ready, lambda: f"{component}: {self.unit(component)}")
-        return unit.ready_at - since
+        return wait_until(ready_time, lambda: f"{component}: {self.unit(component)}") - since
 
     def journal(self, component: str, name: str) -> list[tuple[str, int, float]]:
         """The lines of a journal: process, number, time."""
-        path = self.host_of(component).home / "journals" / name
+        path = journals_of(self.host_of(component)) / name
         lines = path.read_text("ascii").splitlines() if path.exists() else []
         fields = (line.split() for line in lines)
         return [(process, int(number), float(moment)) for process, number, moment in fields]
@@ -121,10 +123,11 @@ class LoadedApp(HostedApp):
         path = f"{names.root_folder(self.name)}/{names.log_file(component)}"
         return (self.host_of(component).home / path).read_text("utf-8")
 
-    def logged(self, component: str, text: str) -> list[float]:
-        """The times of the log lines that contain `text` [s since 1970]."""
+    def logged(self, component: str, text: str, since: float) -> list[float]:
+        """The times of the log lines after `since` that contain `text` [s since 1970]."""
         lines = [line for line in self.log(component).splitlines() if text in line]
-        return [float(json.loads(line)["time"]) for line in lines]
+        times = (float(json.loads(line)["time"]) for line in lines)
+        return [moment for moment in times if moment > since]
 
     def lost_calls(self) -> set[tuple[str, int]]:
         """Calls that were acknowledged and not executed."""
@@ -135,6 +138,11 @@ class LoadedApp(HostedApp):
         """How often a call was executed again."""
         executed = [entry[:2] for entry in self.journal("ledger", "executed")]
         return len(executed) - len(set(executed))
+
+
+def journals_of(host: SimulatedHost) -> Path:
+    """The folder of the journals, which a full disk and a power failure spare."""
+    return Path(host.settings.files, "journals")
 
 
 def kill_unit(host: SimulatedHost, pid: int) -> float:
@@ -157,11 +165,11 @@ def show_unit(host: SimulatedHost, unit: str) -> Unit:
     )
 
 
-def make_loaded_app(folder: Path, hosts: Hosts, name: str = "load") -> LoadedApp:
+def make_loaded_app(folder: Path, hosts: Hosts) -> LoadedApp:
     """Generate the components in `folder`."""
     load_components.build(folder)
     hosts.trust()
-    return LoadedApp(folder, hosts, name)
+    return LoadedApp(folder, hosts)
 
 
 def percentile(values: Iterable[float], share: float) -> float:

@@ -3,114 +3,107 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import pytest
 
 from robocomp_dsl.deploy import status
 from robocomp_dsl.deploy.status import ProcessStatus
-from tests.hosts.faults.loaded_app import LoadedApp, make_loaded_app
+from tests.hosts.faults.loaded_app import LoadedApp
 from tests.hosts.faults.rcdeploy_run import RcdeployRun
-from tests.hosts.rig.hosts import Hosts
 from tests.support.waiting import wait_until
 
 RESTART = "restart on-failure max 3 in 600 s;"
+Record = Callable[[str, object], None]
 
 
-@pytest.fixture(scope="module")
-def faulty(module_hosts: Hosts, tmp_path_factory: pytest.TempPathFactory) -> LoadedApp:
-    module_hosts.start("robot")
-    return make_loaded_app(tmp_path_factory.mktemp("deployment") / "app", module_hosts, "faulty")
+@pytest.fixture
+def since() -> float:
+    """The time before the test [s since 1970]."""
+    return time.time()
 
 
-@pytest.fixture(autouse=True)
-def operator(faulty: LoadedApp, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    faulty.enter(monkeypatch)
-    yield
-    faulty.engine("faulty").stop(faulty.lines.append)
-
-
-def deploy(app: LoadedApp, fault: str, more: str = RESTART) -> None:
-    """Bring a component with a fault, and one without, to its host."""
-    app.describe({"faulty": f'robot set fault = "{fault}"; {more}', "source": "robot"})
+def deploy(app: LoadedApp, component: str, more: str) -> None:
+    """Bring a component with a fault to a host, and one without."""
+    app.describe({component: f"robot {more} {RESTART}", "source": "robot"})
     app.up()
 
 
-def row_when(app: LoadedApp, condition: Callable[[ProcessStatus], bool]) -> ProcessStatus:
-    """The status of the component as soon as `condition` holds."""
-    return wait_until(
-        lambda: row if condition(row := app.row("faulty")) else None,
-        lambda: f"{app.row('faulty')}\n{app.lines}",
-    )
+def row_when(
+    app: LoadedApp, component: str, condition: Callable[[ProcessStatus], bool]
+) -> ProcessStatus:
+    """The status of a component as soon as `condition` holds."""
+    rows: list[ProcessStatus] = []
+
+    def holds() -> bool:
+        rows.append(app.row(component))
+        return condition(rows[-1])
+
+    wait_until(holds, lambda: f"{rows[-1]}\n{app.lines}")
+    return rows[-1]
 
 
-def test_crash_loop_ends_as_failed(
-    faulty: LoadedApp, record_property: Callable[[str, object], None]
-) -> None:
-    start = time.monotonic()
-    deploy(faulty, "crashes")
-    row = row_when(faulty, lambda row: row.state == status.FAILED)
-    record_property("crash loop, 3 restarts: failed after [s]", round(time.monotonic() - start, 1))
+def was_restarted(row: ProcessStatus) -> bool:
+    return row.restarts > 0 and row.state in (status.STARTING, status.READY)
+
+
+def first_run(app: LoadedApp, since: float) -> float:
+    """How long the first process of `faulty` was ready before it ended [s]."""
+    ready = app.logged("faulty", "running every", since)[0]
+    ended = app.logged("faulty", "ended:", ready)[0]
+    return round(ended - ready, 2)
+
+
+def test_crash_loop_ends_as_failed(app: LoadedApp, since: float, record_property: Record) -> None:
+    deploy(app, "faulty", 'set fault = "crashes";')
+    row = row_when(app, "faulty", lambda row: row.state == status.FAILED)
     assert row.restarts == 3
     assert row.note == "failed too often: exit code 3"
-    assert faulty.row("source").state == status.READY
-    with RcdeployRun("status", "faulty") as run:
+    assert app.row("source").state == status.READY
+    starts, ends = app.logged("faulty", "starting", since), app.logged("faulty", "ended:", since)
+    assert len(starts) == 4
+    record_property("crash loop, 3 restarts: failed after [s]", round(ends[-1] - starts[0], 1))
+    with RcdeployRun("status", app.name) as run:
         assert run.wait() == 1
         assert "failed too often: exit code 3" in run.output
-        assert "about to crash" in run.output
 
 
 def test_hanging_component_is_restarted(
-    faulty: LoadedApp, record_property: Callable[[str, object], None]
+    app: LoadedApp, since: float, record_property: Record
 ) -> None:
-    deploy(faulty, "hangs", f"watchdog 1 s; {RESTART}")
-    pid = faulty.unit("faulty").pid
-    row = row_when(faulty, lambda row: row.restarts > 0 and row.pid not in (0, pid))
-    assert row.state in (status.STARTING, status.READY)
-    log = faulty.log("faulty")
+    deploy(app, "faulty", 'set fault = "hangs"; watchdog 1 s;')
+    row_when(app, "faulty", was_restarted)
+    log = app.log("faulty")
     assert "watchdog: compute" in log
     assert "time.sleep(3600)" in log
-    ended = faulty.logged("faulty", "ended:")
-    ready = faulty.logged("faulty", "running every")
-    hang = next(t for t in ended if t > ready[0]) - ready[0]
-    record_property("hang, watchdog 1 s: ended after [s]", round(hang, 2))
+    record_property("compute hangs, watchdog 1 s: ended after [s]", first_run(app, since))
 
 
-def test_frozen_component_is_killed_by_watchdog(
-    faulty: LoadedApp, record_property: Callable[[str, object], None]
-) -> None:
-    deploy(faulty, "", f"watchdog 1 s; {RESTART}")
-    unit = faulty.unit("faulty")
-    faulty.host_of("faulty").run(["kill", "-STOP", str(unit.pid)])
-    stopped = time.monotonic()
-    seconds = faulty.ready_again("faulty", stopped)
-    assert faulty.unit("faulty").pid != unit.pid
+def test_frozen_component_is_killed_by_watchdog(app: LoadedApp, record_property: Record) -> None:
+    deploy(app, "faulty", 'set fault = ""; watchdog 1 s;')
+    unit = app.unit("faulty")
+    app.host_of("faulty").run(["kill", "-STOP", str(unit.pid)])
+    seconds = app.ready_again("faulty", time.monotonic())
+    assert app.unit("faulty").pid != unit.pid
     record_property("SIGSTOP, watchdog 1 s: ready again after [s]", round(seconds, 2))
 
 
 def test_leaking_component_is_restarted(
-    faulty: LoadedApp, record_property: Callable[[str, object], None]
+    app: LoadedApp, since: float, record_property: Record
 ) -> None:
-    deploy(faulty, "leaks", f"memory 400 MB; {RESTART}")
-    pid = faulty.unit("faulty").pid
-    row = row_when(faulty, lambda row: row.restarts > 0 and row.pid not in (0, pid))
-    assert row.state in (status.STARTING, status.READY)
-    ended = faulty.logged("faulty", "ended:")
-    ready = faulty.logged("faulty", "running every")
-    leak = next(t for t in ended if t > ready[0]) - ready[0]
-    record_property("leak of 400 MB/s, limit 400 MB: ended after [s]", round(leak, 2))
-    assert "memory" in faulty.log("faulty")
+    deploy(app, "faulty", 'set fault = "leaks"; memory 300 MB;')
+    row_when(app, "faulty", was_restarted)
+    assert "memory" in app.log("faulty")
+    record_property("leak of 100 MB/s, memory 300 MB: ended after [s]", first_run(app, since))
 
 
-def test_component_that_ignores_sigterm_is_killed(
-    faulty: LoadedApp, record_property: Callable[[str, object], None]
-) -> None:
-    deploy(faulty, "ignores SIGTERM")
+def test_component_that_ignores_sigterm_is_killed(app: LoadedApp, record_property: Record) -> None:
+    deploy(app, "stubborn", "")
     start = time.monotonic()
-    with RcdeployRun("stop", "faulty", "faulty") as run:
-        assert run.wait() == 1
-        assert "faulty (robot): did not exit in time and was killed" in run.output
+    with RcdeployRun("stop", app.name, "stubborn") as run:
+        assert run.wait() == 1, run.output
+        assert "stubborn (robot): did not exit in time and was killed" in run.output
     record_property("SIGTERM ignored: killed after [s]", round(time.monotonic() - start, 1))
-    assert faulty.unit("faulty").pid == 0
-    assert faulty.row("faulty").note == "did not exit in time and was killed"
-    assert faulty.row("source").state == status.READY
+    assert app.unit("stubborn").pid == 0
+    assert app.row("stubborn").note == "did not exit in time and was killed"
+    assert app.row("source").state == status.READY

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from statistics import median
 
 import pytest
@@ -14,11 +14,9 @@ from tests.hosts.faults.loaded_app import (
     UNDER_LOAD,
     LoadedApp,
     kill_unit,
-    make_loaded_app,
     percentile,
     show_unit,
 )
-from tests.hosts.rig.hosts import Hosts
 from tests.support.waiting import wait_until
 
 ROUNDS = int(os.environ.get("FAULT_ROUNDS", "2"))
@@ -36,29 +34,19 @@ EFFECTS = {
 Record = Callable[[str, object], None]
 
 
-@pytest.fixture(scope="module")
-def loaded(module_hosts: Hosts, tmp_path_factory: pytest.TempPathFactory) -> Iterator[LoadedApp]:
+@pytest.fixture
+def loaded(app: LoadedApp) -> LoadedApp:
     """Calls from `base` to `robot`, and publications on the same way."""
-    module_hosts.start("robot")
-    module_hosts.start("base")
-    app = make_loaded_app(tmp_path_factory.mktemp("deployment") / "app", module_hosts)
-    with pytest.MonkeyPatch.context() as patch:
-        app.enter(patch)
-        app.describe({name: f"{host} {OFTEN}" for name, host in PLACES.items()})
-        app.make_keys()
-        assert not app.up().failed, app.lines
-        yield app
-
-
-@pytest.fixture(autouse=True)
-def operator(loaded: LoadedApp, monkeypatch: pytest.MonkeyPatch) -> None:
-    loaded.enter(monkeypatch)
+    app.describe({name: f"{host} {OFTEN}" for name, host in PLACES.items()})
+    assert not app.up().failed, app.lines
+    return app
 
 
 def test_killed_components_lose_no_acknowledged_call(
     loaded: LoadedApp, record_property: Record
 ) -> None:
-    ready, used = [], []
+    ready: list[float] = []
+    used: list[float] = []
     for component in UNDER_LOAD * ROUNDS:
         others = {name: pid for name, pid in loaded.unit_pids().items() if name != component}
         killed = loaded.kill(component)
@@ -72,8 +60,8 @@ def test_killed_components_lose_no_acknowledged_call(
     record_property("kill -9: acknowledged calls", len(loaded.journal("caller", "acknowledged")))
     record_property("kill -9: acknowledged calls lost", 0)
     record_property("kill -9: calls executed twice", loaded.doubled_calls())
-    for label, seconds in (("ready", ready), ("in use by its peers", used)):
-        shares = f"{median(seconds):.2f}, {percentile(seconds, 0.99):.2f}, {max(seconds):.2f}"
+    for label, times in (("ready", ready), ("in use by its peers", used)):
+        shares = f"{median(times):.2f}, {percentile(times, 0.99):.2f}, {max(times):.2f}"
         record_property(f"kill -9 → {label}: p50, p99, max [s]", shares)
 
 
@@ -110,9 +98,8 @@ def test_rebooted_host_comes_up_by_itself(
     others = [name for name in UNDER_LOAD if name not in own]
     before = loaded.units()
     machine = loaded.hosts.by_name[host]
-    machine.power_off()
     start = time.monotonic()
-    machine.boot()
+    machine.reboot()
     booted = time.monotonic()
     ready = start + max(loaded.ready_again(name, start) for name in own)
     calls = loaded.first_after("caller", "acknowledged", ready)

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import contextlib
+import sys
 from pathlib import Path
 from typing import Any
 
 from tests.hosts.rig import accounts
-from tests.hosts.rig.machine import SimulatedHost, make_host
+from tests.hosts.rig.boot_settings import BootSettings
+from tests.hosts.rig.machine import SimulatedHost
 from tests.hosts.rig.namespaces import OPERATOR_ADDRESS, TestNetwork
+from tests.hosts.rig.requirements import systemd_program
+
+CHECKOUT = Path(__file__).parents[3]
 
 
 class Hosts:
@@ -59,3 +64,34 @@ class Hosts:
         with contextlib.ExitStack() as stack:
             for host in self.by_name.values():
                 stack.callback(host.power_off)
+
+
+def make_host(
+    folder: Path, name: str, network: TestNetwork, authorized_key: str, **options: Any
+) -> SimulatedHost:
+    """Prepare a host below `folder`; it is not booted. `options` are fields of `BootSettings`."""
+    address = network.new_address()
+    user = options.pop("user", name)
+    uid = 61000 + int(address.rsplit(".", 1)[1])
+    files = folder / name
+    home = folder / f"{name}-home"
+    (files / "etc").mkdir(parents=True)
+    home.mkdir()
+    accounts.write_accounts(files, user, uid)
+    accounts.make_host_key(files)
+    accounts.write_sshd_config(files, user)
+    accounts.authorize(home, uid, authorized_key)
+    visible = [CHECKOUT, Path(sys.base_prefix)] if options.pop("checkout", True) else []
+    settings = BootSettings(
+        name=name,
+        user=user,
+        uid=uid,
+        files=str(files),
+        home=str(home),
+        cgroups=[],
+        systemd=systemd_program(),
+        visible=[*map(str, visible), *map(str, options.pop("visible", ()))],
+        hidden=[str(path) for path in options.pop("hidden", ())],
+        **options,
+    )
+    return SimulatedHost(settings, address, network)

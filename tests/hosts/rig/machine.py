@@ -10,37 +10,18 @@ import struct
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from tests.hosts.rig import accounts
+from tests.hosts.rig.boot_settings import BootSettings
 from tests.hosts.rig.cgroups import HostCgroups
 from tests.hosts.rig.namespaces import TestNetwork
-from tests.hosts.rig.requirements import SEARCH_PATH, systemd_program
+from tests.hosts.rig.requirements import SEARCH_PATH
 from tests.support.waiting import wait_until
 
 BOOT = Path(__file__).with_name("boot.py")
-CHECKOUT = Path(__file__).parents[3]
-
-
-@dataclass(frozen=True, slots=True)
-class BootSettings:
-    """What `boot.py` reads. `visible`: folders of this machine that the host sees, too."""
-
-    name: str
-    user: str
-    uid: int
-    files: str
-    home: str
-    cgroups: list[str]
-    systemd: str
-    visible: list[str]
-    hidden: list[str]
-    manager: bool = True
-    linger: bool = True
-    sshd: bool = True
-    disk_bytes: int = 0
 
 
 class SimulatedHost:
@@ -289,10 +270,10 @@ class SimulatedHost:
     def reload_sshd(self) -> None:
         """Let sshd read its settings and keys again."""
         pid_file = Path(f"/proc/{self.first_pid}/root/run/sshd.pid")
-        pid = pid_file.read_text("ascii").strip()
+        pid = wait_until(lambda: _read_line(pid_file), f"sshd of {self.name} does not run")
         pid_file.unlink()
         self.run(["kill", "-HUP", pid], root=True)
-        wait_until(pid_file.exists, f"sshd of {self.name} did not read its settings")
+        wait_until(lambda: _read_line(pid_file), f"sshd of {self.name} did not read its settings")
 
     def replace_host_key(self) -> None:
         """Give sshd another key, as an installation from scratch does."""
@@ -308,32 +289,9 @@ class SimulatedHost:
         return (self._files / "sshd.log").read_text("utf-8", "replace")
 
 
-def make_host(
-    folder: Path, name: str, network: TestNetwork, authorized_key: str, **options: Any
-) -> SimulatedHost:
-    """Prepare a host below `folder`; it is not booted. `options` are fields of `BootSettings`."""
-    address = network.new_address()
-    user = options.pop("user", name)
-    uid = 61000 + int(address.rsplit(".", 1)[1])
-    files = folder / name
-    home = folder / f"{name}-home"
-    (files / "etc").mkdir(parents=True)
-    home.mkdir()
-    accounts.write_accounts(files, user, uid)
-    accounts.make_host_key(files)
-    accounts.write_sshd_config(files, user)
-    accounts.authorize(home, uid, authorized_key)
-    visible = [CHECKOUT, Path(sys.base_prefix)] if options.pop("checkout", True) else []
-    settings = BootSettings(
-        name=name,
-        user=user,
-        uid=uid,
-        files=str(files),
-        home=str(home),
-        cgroups=[],
-        systemd=systemd_program(),
-        visible=[*map(str, visible), *map(str, options.pop("visible", ()))],
-        hidden=[str(path) for path in options.pop("hidden", ())],
-        **options,
-    )
-    return SimulatedHost(settings, address, network)
+def _read_line(path: Path) -> str:
+    """The first line of a file; empty if it is not written yet."""
+    try:
+        return path.read_text("ascii").strip()
+    except FileNotFoundError:
+        return ""

@@ -122,6 +122,30 @@ def test_group_process_ends_when_a_member_hangs(folder: Path) -> None:
     assert group.has("left-arm | arm finalizes")
 
 
+def test_group_process_without_own_folders_warns_and_finds_configurations(folder: Path) -> None:
+    (folder / "arm" / "etc").mkdir(exist_ok=True)
+    (folder / "arm" / "etc" / "config.yaml").write_text("serial: from-file\n")
+    worker = folder / "arm" / "specificworker.py"
+    text = worker.read_text().replace(
+        '"arm in %s", os.path.basename(os.getcwd())', '"%s", self.params.serial'
+    )
+    worker.write_text(text.replace('os.path.exists("arm.cdsl")', "True"))
+    program = (
+        "from robocomp_dsl.runtime.component import thread_context as context\n"
+        "context._unshare = lambda: False\n"
+        "from robocomp_dsl.runtime.group_process.main import main\n"
+        "raise SystemExit(main())"
+    )
+    with RunningProcess(
+        *(sys.executable, "-c", program, "--name", "left"),
+        *("--component", str(folder / "arm"), "--name", "left-arm"),
+        *("--middleware", "Laser=zenoh,inproc", "--component", str(folder / "eye"), *EYE_OPTIONS),
+    ) as group:
+        group.until("no working folders of their own", "left-arm | from-file", "eye | running")
+        group.process.send_signal(signal.SIGTERM)
+        assert group.end() == 0
+
+
 @pytest.mark.parametrize(
     ("file", "text", "message"),
     [

@@ -28,11 +28,11 @@ def grant_connection(target: DomainTarget, ends: ConnectionEnds) -> bool:
         return False
     from robocomp_dsl.deploy.hosts.access_changes import CannotGrant, grant  # noqa: PLC0415 - loads asyncssh
     from robocomp_dsl.deploy.hosts.host_engine import HostEngine  # noqa: PLC0415
-    from robocomp_dsl.deploy.network.port_uses import Rewiring  # noqa: PLC0415
+    from robocomp_dsl.deploy.network.port_uses import AddedConnection  # noqa: PLC0415
 
     assert isinstance(target.engine, HostEngine)  # noqa: S101 - the other kind of engine
     source, sink = ends.source, ends.target
-    connection = Rewiring(source.component, source.port, sink.component, sink.port)
+    connection = AddedConnection(source.component, source.port, sink.component, sink.port)
     try:
         is_changed = grant(target.engine.deployment, connection)
     except CannotGrant as error:

@@ -12,6 +12,7 @@ import ctypes
 import json
 import os
 import shutil
+import signal
 import stat
 import subprocess
 import zipfile
@@ -21,6 +22,7 @@ from typing import Any
 
 MARKER = "robocomp.json"
 _INSTALL_TIMEOUT_S = 540.0
+_PR_SET_PDEATHSIG = 1
 
 
 class InstallationFailed(Exception):
@@ -48,12 +50,10 @@ def install_environment(request: dict[str, Any]) -> dict[str, Any]:
     folder = root / "environments"
     folder.mkdir(parents=True, exist_ok=True)
     draft = folder / f".new-{name}-{os.getpid()}"
-    wheels = folder / f".new-wheels-{name}-{os.getpid()}"
     for old in folder.glob(f".new-*{name}-*"):
         shutil.rmtree(old, ignore_errors=True)
     try:
-        _link_wheels(root, wheels, request)
-        _create(root, draft, wheels, request)
+        _create(root, draft, request)
         _check_imports(draft, request["imports"])
         marker = {"name": name, "requirements": request["requirements"]}
         blobs = [blob for _, blob in request["wheels"]] + [request["uv"]]
@@ -61,19 +61,27 @@ def install_environment(request: dict[str, Any]) -> dict[str, Any]:
         _sync_file_system(folder)  # after a power failure no complete environment has empty files
         _replace(folder, draft, folder / name)
     finally:
-        shutil.rmtree(wheels, ignore_errors=True)
         shutil.rmtree(draft, ignore_errors=True)
     return {}
 
 
-def _link_wheels(root: Path, wheels: Path, request: dict[str, Any]) -> None:
-    wheels.mkdir()
-    for file, blob in request["wheels"]:
-        os.link(root / "blobs" / blob, wheels / file)
-    (wheels / "requirements.txt").write_text(request["requirements"])
+def _link_wheels(root: Path, wheels: list[tuple[str, str]]) -> list[str]:
+    """The options with the folders of wheels.
+
+    Each wheel has a folder of its own that never changes: uv unpacks it once, and environments have
+    links to the files.
+    """
+    options = []
+    for file, blob in wheels:
+        folder = root / "wheels" / blob
+        folder.mkdir(parents=True, exist_ok=True)
+        if not (folder / file).exists():
+            os.link(root / "blobs" / blob, folder / file)
+        options += ["--find-links", str(folder)]
+    return options
 
 
-def _create(root: Path, draft: Path, wheels: Path, request: dict[str, Any]) -> None:
+def _create(root: Path, draft: Path, request: dict[str, Any]) -> None:
     uv = _unpack_uv(root, request["uv"])
     passed_on = ("HOME", "LANG", "LC_ALL", "PATH", "TMPDIR")
     variables = {name: value for name, value in os.environ.items() if name in passed_on}
@@ -85,20 +93,13 @@ def _create(root: Path, draft: Path, wheels: Path, request: dict[str, Any]) -> N
         "NO_COLOR": "1",
     }
     python = ["--python", request["python"]]
-    _run([uv, "venv", "--quiet", "--relocatable", *python, str(draft)], variables)
-    install = [
-        uv,
-        "pip",
-        "install",
-        "--quiet",
-        "--no-index",
-        "--require-hashes",
-        "--no-build",
-        "--no-deps",
-    ]
-    install += ["--python", str(draft / "bin" / "python"), "--compile-bytecode"]
-    install += ["--find-links", str(wheels), "-r", str(wheels / "requirements.txt")]
-    _run(install, variables)
+    _run("`uv venv`", [uv, "venv", "--quiet", "--relocatable", *python, str(draft)], variables)
+    requirements = draft / "requirements.txt"
+    requirements.write_text(request["requirements"])
+    install = [uv, "pip", "install", "--quiet", "--no-index", "--no-deps", "--no-build"]
+    install += ["--require-hashes", "-r", str(requirements), "--compile-bytecode"]
+    install += ["--python", str(draft / "bin" / "python"), "--link-mode", "hardlink"]
+    _run("`uv pip install`", install + _link_wheels(root, request["wheels"]), variables)
 
 
 def _unpack_uv(root: Path, blob: str) -> str:
@@ -117,14 +118,20 @@ def _unpack_uv(root: Path, blob: str) -> str:
     return str(program)
 
 
+def _end_with_parent() -> None:
+    """The kernel kills the program when this process ends: no orphan goes on to write files."""
+    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
 def _check_imports(draft: Path, modules: list[str]) -> None:
     code = ";".join(f"import {module}" for module in modules)
     python = str(draft / "bin" / "python")
     variables = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
-    _run([python, "-c", code], variables)
+    _run("the import of installed packages", [python, "-c", code], variables)
 
 
-def _run(command: list[str], variables: dict[str, str]) -> None:
+def _run(title: str, command: list[str], variables: dict[str, str]) -> None:
+    """Run a program; `title` names it in errors."""
     try:
         result = subprocess.run(  # noqa: S603 - the command line is rcdeploy's
             command,
@@ -133,14 +140,15 @@ def _run(command: list[str], variables: dict[str, str]) -> None:
             capture_output=True,
             timeout=_INSTALL_TIMEOUT_S,
             check=False,
+            preexec_fn=_end_with_parent,
         )
     except subprocess.TimeoutExpired:
-        text = f"`{Path(command[0]).name}` did not end within {_INSTALL_TIMEOUT_S:g} s"
+        text = f"{title} did not end within {_INSTALL_TIMEOUT_S:g} s"
         raise InstallationFailed(text) from None
     if result.returncode:
         output = (result.stderr or result.stdout).decode("utf-8", "replace").strip()
         reason = output or f"exit code {result.returncode}"
-        raise InstallationFailed(f"`{' '.join(command[:3])}` failed: {reason[-2000:]}")
+        raise InstallationFailed(f"{title} failed: {reason[-2000:]}")
 
 
 def _sync_file_system(folder: Path) -> None:
@@ -155,6 +163,8 @@ def _sync_file_system(folder: Path) -> None:
 
 def _replace(folder: Path, draft: Path, complete: Path) -> None:
     """Give `draft` its name; a damaged environment of this name goes away."""
+    if not _problem(complete, complete.name):
+        return  # another rcdeploy installed it meanwhile, and processes may run in it
     old = folder / f".new-old-{complete.name}-{os.getpid()}"
     with contextlib.suppress(FileNotFoundError):
         complete.rename(old)

@@ -37,6 +37,9 @@ def collect_garbage(request: dict[str, Any]) -> dict[str, Any]:
     for blob in _entries(root / "blobs"):
         if blob.name not in blobs:
             blob.unlink(missing_ok=True)
+    for wheel in _entries(root / "wheels"):
+        if wheel.name not in blobs:
+            _delete(wheel)
     shutil.rmtree(root / "incoming", ignore_errors=True)
     freed = (shutil.disk_usage(root).free if root.is_dir() else 0) - before
     return {"freed_bytes": freed, "outputs": outputs, "trees": sorted(trees)}

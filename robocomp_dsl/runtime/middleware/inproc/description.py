@@ -4,7 +4,7 @@ from robocomp_dsl.runtime.middleware.capabilities import Capabilities, Middlewar
 
 MIDDLEWARE = MiddlewareDescription(
     name="inproc",
-    summary="direct calls between components of one process, for tests",
+    summary="direct calls between components of one process",
     capabilities=Capabilities(
         between_processes=False,
         attaches_subscribers=True,
