@@ -26,7 +26,8 @@ from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
 from robocomp_dsl.deploy.supervisor.reaper import DEPLOYMENT_VARIABLE
 from robocomp_dsl.deploy.supervisor.reaper_process import ReaperProcess
 from robocomp_dsl.deploy.supervisor.requests import ComponentRequests, Replan
-from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, Supervisor
+from robocomp_dsl.deploy.supervisor.run_options import Options, Outcome
+from robocomp_dsl.deploy.supervisor.supervisor import Supervisor
 
 EXIT_BROKEN_PIPE = 141
 """As in a shell: 128 + SIGPIPE."""

@@ -14,7 +14,7 @@ from pathlib import Path
 from robocomp_dsl.deploy import instances, session
 from robocomp_dsl.deploy.external_program import ExternalProgram
 from robocomp_dsl.deploy.logs import LogRecord
-from robocomp_dsl.deploy.supervisor.supervisor import Options
+from robocomp_dsl.deploy.supervisor.run_options import Options
 from tests.deploy.scripted_processes import FifoLifecycleMonitor, make_plan, scripted_process
 
 

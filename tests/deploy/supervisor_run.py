@@ -11,7 +11,8 @@ from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.plan import Process
 from robocomp_dsl.deploy.status import ProcessStatus
 from robocomp_dsl.deploy.supervisor.reaper import find_processes
-from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, Supervisor
+from robocomp_dsl.deploy.supervisor.run_options import Options, Outcome
+from robocomp_dsl.deploy.supervisor.supervisor import Supervisor
 from tests.deploy.scripted_processes import FifoLifecycleMonitor, make_plan
 
 TIMEOUT_S = 120.0

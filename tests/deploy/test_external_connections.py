@@ -13,7 +13,7 @@ import pytest
 from robocomp_dsl.deploy.external_connection import CONNECTED, WAITING
 from robocomp_dsl.deploy.supervisor import external_connections
 from robocomp_dsl.deploy.supervisor.external_connections import ExternalConnections, open_connector
-from robocomp_dsl.deploy.supervisor.supervisor import Outcome
+from robocomp_dsl.deploy.supervisor.run_options import Outcome
 from robocomp_dsl.model.deployment import ExternalConnection
 from robocomp_dsl.runtime.middleware.external_connector import ConnectorError
 from robocomp_dsl.runtime.middleware.yarp.connector import YarpConnector

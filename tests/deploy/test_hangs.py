@@ -11,7 +11,7 @@ import pytest
 from robocomp_dsl.deploy import status
 from robocomp_dsl.deploy.status import ProcessStatus
 from robocomp_dsl.deploy.supervisor.heartbeat import MIN_MARGIN_S
-from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome
+from robocomp_dsl.deploy.supervisor.run_options import Options, Outcome
 from robocomp_dsl.model.deployment import Restart
 from robocomp_dsl.runtime.component.hang_report import HangReport
 from tests.deploy.scripted_processes import STEADY, scripted_process

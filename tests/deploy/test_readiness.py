@@ -14,7 +14,7 @@ import pytest
 from robocomp_dsl.deploy.plan import Process
 from robocomp_dsl.deploy.supervisor import process_watch
 from robocomp_dsl.deploy.supervisor.notify import NotifySocket, parse_message
-from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome
+from robocomp_dsl.deploy.supervisor.run_options import Options, Outcome
 from robocomp_dsl.host_tools.resource_limits import LimitTracker, TreeUsage
 from robocomp_dsl.model.deployment import Readiness, ResourceLimits, Restart
 from tests.deploy.scripted_processes import scripted_process

@@ -11,7 +11,7 @@ import pytest
 
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.deploy.supervisor.requests import ComponentRequests, PlanRejected
-from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome
+from robocomp_dsl.deploy.supervisor.run_options import Options, Outcome
 from robocomp_dsl.model.deployment import Restart
 from tests.deploy.scripted_processes import STEADY, make_plan, scripted_process
 from tests.deploy.supervisor_run import SupervisorRun, stop

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
-from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome
+from robocomp_dsl.deploy.supervisor.run_options import Options, Outcome
 from robocomp_dsl.model.deployment import Restart
 from tests.deploy.scripted_processes import STEADY, scripted_process
 from tests.deploy.supervisor_run import TIMEOUT_S, SupervisorRun, stop

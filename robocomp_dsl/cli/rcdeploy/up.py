@@ -21,7 +21,7 @@ from robocomp_dsl.deploy.log_runs import LogRun
 from robocomp_dsl.deploy.log_store import DAY_S, LogLimits, LogStore
 from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.deploy.supervisor.requests import PlanRejected, Replan
-from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome
+from robocomp_dsl.deploy.supervisor.run_options import Options, Outcome
 from robocomp_dsl.deploy.supervisor.system import unsupported_reason
 from robocomp_dsl.runtime.presence.domain_names import NameTaken, reserve
 from robocomp_dsl.runtime.private_folder import UnsafeFolder

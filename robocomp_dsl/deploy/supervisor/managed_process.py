@@ -8,6 +8,7 @@ from __future__ import annotations
 import asyncio
 import signal
 import time
+from dataclasses import replace
 
 from robocomp_dsl.deploy import status
 from robocomp_dsl.deploy.logs import LogRecord
@@ -54,13 +55,9 @@ class ManagedProcess:
         self.stop_requested = asyncio.Event()
         self.failed = False
         self.restart_times: list[float] = []
-        self._state = status.WAITING
-        self._note = ""
-        self._lifecycle_state = ""
-        self._started = False
-        self.was_ready = False
-        self._killed = False
-        self._failure = ""
+        self._state, self._note = status.WAITING, ""
+        self._lifecycle_state = self._failure = ""
+        self._started = self.was_ready = self._killed = False
         self._starts_without_ready = 0
         self._early_states: list[tuple[int, str]] = []
         self._hung_child: ChildProcess | None = None
@@ -71,30 +68,19 @@ class ManagedProcess:
 
     def status(self) -> ProcessStatus:
         """The current status."""
-        child = self.child
-        if child is None:
-            return ProcessStatus(
-                self.name,
-                self._state,
-                restarts=len(self.restart_times),
-                note=self._note,
-                hang=self.hang,
-                members=tuple((member.name, "") for member in self.process.members),
-            )
+        restarts, members = len(self.restart_times), ((m.name, "") for m in self.process.members)
+        row = ProcessStatus(
+            self.name, self._state, restarts=restarts, note=self._note, hang=self.hang,
+            members=tuple(members),
+        )  # fmt: skip
+        if (child := self.child) is None:
+            return row
         child.usage.sample()
-        return ProcessStatus(
-            self.name,
-            self._state,
-            child.pid,
-            time.monotonic() - child.started,
-            len(self.restart_times),
-            child.usage.cpu,
-            child.usage.memory,
-            self._note,
-            self._lifecycle_state,
-            hang=self.hang,
-            members=self.member_states.as_pairs(),
-        )
+        up, usage = time.monotonic() - child.started, child.usage
+        return replace(
+            row, pid=child.pid, up_s=up, cpu=usage.cpu, memory=usage.memory,
+            life=self._lifecycle_state, members=self.member_states.as_pairs(),
+        )  # fmt: skip
 
     def on_state_changed(self, pid: int, state: str) -> None:
         """Handle a state change that the monitor reports; events of earlier runs are ignored."""
@@ -210,11 +196,10 @@ class ManagedProcess:
         self._lifecycle_state = ""
         self._early_states.clear()
         self._transition_to(status.STARTING, "")
-        variables = process_environment(self.process, self.context.environment, self.context.token)
+        context = self.context
+        variables = process_environment(self.process, context.environment, context.token)
         try:
-            started = await self.context.starter.start(
-                self.process, variables, hang_watch.write_end
-            )
+            started = await context.starter.start(self.process, variables, hang_watch.write_end)
         except OSError as error:
             hang_watch.close()
             self._note = f"cannot be started: {error.strerror or error}"

@@ -11,7 +11,6 @@ import contextlib
 import time
 from asyncio import FIRST_COMPLETED
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -26,34 +25,8 @@ from robocomp_dsl.deploy.supervisor.managed_process import KILL_TIMEOUT_S, Manag
 from robocomp_dsl.deploy.supervisor.notify import SOCKET_VARIABLE, NotifySocket
 from robocomp_dsl.deploy.supervisor.process_start import ExecutingStarter, ProcessStarter
 from robocomp_dsl.deploy.supervisor.process_watch import ProcessWatch, WatchedProcess
+from robocomp_dsl.deploy.supervisor.run_options import Options, Outcome
 from robocomp_dsl.deploy.supervisor.waiting import wait_any
-
-
-@dataclass(frozen=True, slots=True)
-class Options:
-    """Options of one run, times in s.
-
-    `grace_s`: time between SIGTERM and SIGKILL of one component; `stop_timeout_s`: the limit for
-    all components together. `duration_s` counts from the moment when all are ready. `keep_going`:
-    a permanent failure of one component does not stop the others.
-    """
-
-    grace_s: float = 5.0
-    stop_timeout_s: float = 15.0
-    duration_s: float | None = None
-    keep_going: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """How a run ended, with its exit code.
-
-    0: stopped on request, or all exited successfully; 1: a component failed; 141: nobody reads the
-    output any more.
-    """
-
-    code: int
-    reason: str
 
 
 class Supervisor:

@@ -71,8 +71,9 @@ def run(argv: Sequence[str]) -> None:
         raise
     except BaseException as error:
         # Without the frames of the fork server, as in a program of its own.
-        trace = error.__traceback__
-        sys.excepthook(type(error), error, trace.tb_next if trace else None)
+        own = error.__traceback__
+        error.__traceback__ = own.tb_next if own else None
+        sys.excepthook(type(error), error, error.__traceback__)
         raise SystemExit(1) from None
     raise SystemExit(0)
 
