@@ -14,7 +14,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # Processes started by tests use the commands of this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: campaign conformance test-wheel test-tools test-hosts test-peers fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
+.PHONY: campaign campaign-hosts conformance test-wheel test-tools test-hosts test-peers fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
 
 demo: $(READY)
 	$(BIN)/python components/touch_demo/demo.py $(ARGS)
@@ -42,6 +42,13 @@ fuzz: $(READY)
 # Inject faults into running deployments: 10 minutes.
 campaign: $(READY)
 	$(BIN)/python -m tests.campaign
+
+# Inject faults into deployments over simulated hosts; the figures go to build/host_faults.json.
+campaign-hosts: $(READY)
+	tests/hosts/install.sh
+	mkdir -p build
+	FAULT_ROUNDS=25 FAULT_CUT_S=30 FAULT_FIGURES=build/host_faults.json \
+	$(BIN)/python -m pytest -q -m hosts tests/hosts/faults
 
 # Generate the editors' keyword files from the grammars.
 highlight: $(READY)

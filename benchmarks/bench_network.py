@@ -28,7 +28,7 @@ from benchmarks.pose_interface import MOVER, TRACK
 from robocomp_dsl.deploy.network.access_rules import AccessRules, ComponentAccess, component_grants
 from robocomp_dsl.deploy.network.identities import Identity
 from robocomp_dsl.deploy.network.key_folder import KeyFolder
-from robocomp_dsl.deploy.network.port_uses import PortUse, Verb
+from robocomp_dsl.deploy.network.port_uses import PortAction, PortUse
 from robocomp_dsl.deploy.network.update_keys import update_keys
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.presence.network_settings import NETWORK_VARIABLE, NetworkSettings
@@ -41,14 +41,14 @@ def rules(domain: str) -> AccessRules:
     """What the two components of `bench_middleware` do."""
     uses = {
         CLIENT: (
-            PortUse(Verb.CALLS, MOVER.name, "Mover", PEER, "Mover"),
-            PortUse(Verb.PUBLISHES, TRACK.name, "There"),
-            PortUse(Verb.SUBSCRIBES, TRACK.name, "Back", PEER, "*"),
+            PortUse(PortAction.CALLS, MOVER.name, "Mover", PEER, "Mover"),
+            PortUse(PortAction.PUBLISHES, TRACK.name, "There"),
+            PortUse(PortAction.SUBSCRIBES, TRACK.name, "Back", PEER, "*"),
         ),
         PEER: (
-            PortUse(Verb.SERVES, MOVER.name, "Mover"),
-            PortUse(Verb.PUBLISHES, TRACK.name, "Back"),
-            PortUse(Verb.SUBSCRIBES, TRACK.name, "There", CLIENT, "*"),
+            PortUse(PortAction.SERVES, MOVER.name, "Mover"),
+            PortUse(PortAction.PUBLISHES, TRACK.name, "Back"),
+            PortUse(PortAction.SUBSCRIBES, TRACK.name, "There", CLIENT, "*"),
         ),
     }
     components = (
@@ -63,9 +63,9 @@ class BenchNetwork:
 
     def __init__(self, folder: Path, domain: str) -> None:
         self.keys = KeyFolder(folder / "keys")
-        wanted = [Identity(name, "component") for name in (CLIENT, PEER)]
-        wanted.append(Identity(ROUTER, "router", ("127.0.0.1", "localhost")))
-        update_keys("bench", wanted, self.keys, datetime.now(UTC))
+        required = [Identity(name, "component") for name in (CLIENT, PEER)]
+        required.append(Identity(ROUTER, "router", ("127.0.0.1", "localhost")))
+        update_keys("bench", required, self.keys, datetime.now(UTC))
         with socket.create_server(("127.0.0.1", 0)) as free:
             endpoint = f"tls/127.0.0.1:{free.getsockname()[1]}"
         files = {"ca": "ca.pem", "certificate": f"{ROUTER}.pem", "key": f"{ROUTER}.key"}

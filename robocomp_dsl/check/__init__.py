@@ -17,7 +17,8 @@ file itself, and the errors of the files that it references.
     tactile description (YAML, XML)                        innermodel/tactile     check_tactile
 
 The parts of a deployment (`ddsl/`): components, instances, settings, devices, order, connections,
-implicit_connections, clocks, groups.
+implicit_connections, clocks, groups; definitions of groups go through definitions, expansion and
+check_definitions, groups in one process through one_process.
 The parts of a bridge (`bdsl/`): declarations, ports, hubs, outputs, services; values go through
 expressions (types, bottom up), fitting (type and unit of the target) and assignments.
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from robocomp_dsl.deploy.hosts.core_checks import check_cores
 from robocomp_dsl.deploy.placement.host_load import HostLoad, local_load
 from robocomp_dsl.deploy.placement.place import place, placeable_locally
 from robocomp_dsl.deploy.placement.placement_choice import PlacementResult
@@ -250,4 +251,19 @@ def test_placement_lines_show_numbers(tmp_path: Path) -> None:
         "   robot           1        1.30   2.60    0.00     2  1.375",
         "   desk            0        0.26   0.00    0.00     8  0.019  chosen",
         "   rack            0           ?      ?       ?     ?      ?",
+    ]
+
+
+def test_check_cores_names_cores_that_the_host_does_not_have(tmp_path: Path) -> None:
+    body = """
+        component a : talker on robot { cores 0, 3-5; };
+        component b : talker on robot { cores 0-3; };
+        component c : talker on desk { cores 9; };
+        component d : talker { cores 1; };
+    """
+    model = deployed(tmp_path, body, HOSTS)
+    findings = list(check_cores(model, {"robot": 4, "localhost": 1}))
+    assert [(finding.code.id, finding.message) for finding in findings] == [
+        ("RC575", "`a`: the host `robot` has no CPU core 4-5; it has 0-3"),
+        ("RC575", "`d`: the host `localhost` has no CPU core 1; it has 0"),
     ]

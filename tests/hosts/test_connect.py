@@ -51,5 +51,8 @@ def test_connect_grants_connection_over_hosts(app: HostedApp) -> None:
     assert "arm.Laser" in rows
     assert "priority=high" in rows
     assert app.pids() == pids
+    renamed = rcdeploy("remap", "app", "arm.Laser", "Scan")
+    assert renamed.code == 1
+    assert "the routers between the hosts pass the described names" in renamed.stderr
     again = rcdeploy("disconnect", "app", "eye.Laser", "arm.Laser")
     assert again.code == 0, again.stderr

@@ -91,3 +91,38 @@ def test_topic_channel_on_several_middlewares_counts_publication_once() -> None:
     finally:
         for ports in opened:
             ports.close()
+
+
+def test_topic_channel_publishes_where_somebody_subscribes() -> None:
+    domain, received = f"test-{uuid.uuid4().hex[:12]}", []
+    opened: list[Any] = []
+    contexts = {
+        name: ComponentContext(name, domain, CallbackGroup(), Statistics())
+        for name in ("speaker", "near", "far")
+    }
+    try:
+        opened += [open_ports("zenoh", context) for context in contexts.values()]
+        speaker, near, far = opened
+        at = Endpoint(NEWS, "speaker", "News", middlewares=("inproc", "zenoh"))
+        channel = speaker.advertise(at)
+        news = NewsProxy(channel)
+
+        def listen(ports: Any, name: str, middleware: str) -> None:
+            at = Endpoint(NEWS, name, "News", middlewares=(middleware,))
+            handlers = {"announced": lambda _, n: received.append((name, n))}
+            ports.subscribe(at, handlers, CallbackGroup())
+
+        listen(near, "near", "inproc")
+        wait_until(news.has_subscribers)
+        news.announced("me", 1)
+        wait_until(lambda: received == [("near", 1)])
+        counts = contexts["speaker"].statistics.of("News", "announced")
+        assert (counts.calls, counts.bytes_out) == (1, 0)
+        listen(far, "far", "zenoh")
+        wait_until(channel.ports[1].publisher.has_subscribers)
+        news.announced("me", 2)
+        wait_until(lambda: sorted(received) == [("far", 2), ("near", 1), ("near", 2)])
+        assert (counts.calls, counts.bytes_out > 0) == (2, True)
+    finally:
+        for ports in opened:
+            ports.close()

@@ -24,7 +24,7 @@ from robocomp_dsl.deploy.hosts.host_network import PRIVATE
 from robocomp_dsl.deploy.hosts.registry import HostedDeployment
 from robocomp_dsl.deploy.hosts.rollout import raise_failures
 from robocomp_dsl.deploy.network.access_rules import access_rules
-from robocomp_dsl.deploy.network.port_uses import Rewiring
+from robocomp_dsl.deploy.network.port_uses import AddedConnection
 from robocomp_dsl.deploy.placement.placed_deployment import with_hosts
 from robocomp_dsl.deploy.units import names
 from robocomp_dsl.diagnostics import Report
@@ -39,7 +39,7 @@ class CannotGrant(Exception):
     """The routers cannot be changed; the message says why. Nothing is connected."""
 
 
-def grant(entry: HostedDeployment, connection: Rewiring) -> bool:
+def grant(entry: HostedDeployment, connection: AddedConnection) -> bool:
     """Let all routers pass `connection`; whether anything had to change. Raises `CannotGrant`."""
     deployment = _deployment(entry)
     if access_rules(deployment, entry.domain) == access_rules(
@@ -86,10 +86,12 @@ class _RouterFile:
 
     path: str
     data: dict[str, Any]
-    granted: tuple[Rewiring, ...]
+    granted: tuple[AddedConnection, ...]
 
 
-async def _grant(entry: HostedDeployment, deployment: Deployment, connection: Rewiring) -> bool:
+async def _grant(
+    entry: HostedDeployment, deployment: Deployment, connection: AddedConnection
+) -> bool:
     """Change the settings of all routers; only if all of them can be read."""
     described = access_rules(deployment, entry.domain).to_zenoh()
     async with open_fleet(entry.hosts, entry.name) as fleet:
@@ -127,7 +129,7 @@ async def _read(agent: HostAgent, deployment: str) -> _RouterFile:
     content = await agent.connection.read(path)
     listed = await agent.connection.read(f"{_private(deployment)}/{GRANTED}")
     try:
-        granted = tuple(Rewiring(*map(str, each)) for each in json.loads(listed or b"[]"))
+        granted = tuple(AddedConnection(*map(str, each)) for each in json.loads(listed or b"[]"))
         data = dict(json.loads(content or b""))
         return _RouterFile(path, {**data, "access": data["access"]}, granted)
     except (ValueError, TypeError, KeyError):

@@ -12,6 +12,7 @@ from contextlib import asynccontextmanager
 from datetime import UTC, datetime
 
 from robocomp_dsl.deploy.hosts import registry
+from robocomp_dsl.deploy.hosts.core_checks import check_cores
 from robocomp_dsl.deploy.hosts.description import all_components, deployment_hosts
 from robocomp_dsl.deploy.hosts.differences import HostChanges
 from robocomp_dsl.deploy.hosts.fleet import Fleet, open_fleet
@@ -32,6 +33,7 @@ from robocomp_dsl.deploy.hosts.rollout import (
     raise_failures,
     roll_out,
 )
+from robocomp_dsl.deploy.hosts.router_ports import check_router_ports
 from robocomp_dsl.deploy.network.identities import needs_network
 from robocomp_dsl.deploy.network.key_checks import check_keys
 from robocomp_dsl.deploy.network.key_folder import key_folder
@@ -72,6 +74,8 @@ class Deployer:
         async with self._checked_fleet() as fleet:
             content = self._describe(fleet)
             checks = await content.check(fleet, self._report)
+            spans = host_spans(self._deployment)
+            await check_router_ports(fleet, self._deployment, spans, self._report)
             raise_failures(fleet)
             self._reject_errors()
             await lock_hosts(fleet)
@@ -114,6 +118,9 @@ class Deployer:
         async with open_fleet([*hosts, *earlier], self._plan.name, with_facts=True) as fleet:
             self._check_fleet(fleet, hosts, earlier)
             await self._place(fleet)
+            cpus = {name: facts.cpus for name, facts in fleet.facts.items()}
+            self._report.extend(check_cores(self._deployment, cpus))
+            self._reject_errors()
             yield fleet
 
     def _check_fleet(self, fleet: Fleet, hosts: Iterable[Host], earlier: Iterable[Host]) -> None:

@@ -20,7 +20,7 @@ from robocomp_dsl.deploy.network.identities import (
     router_name,
     used_hosts,
 )
-from robocomp_dsl.deploy.network.port_uses import PortUse, Rewiring, Verb, port_uses
+from robocomp_dsl.deploy.network.port_uses import AddedConnection, PortAction, PortUse, port_uses
 from robocomp_dsl.model.deployment import Deployment
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.runtime.component.naming import ANY
@@ -36,9 +36,9 @@ TOKEN, WATCH_TOKENS, ASK_TOKENS = (
 )
 MESSAGES = (PUT, "delete", QUERY, REPLY, SUBSCRIBE, SERVE, TOKEN, WATCH_TOKENS, ASK_TOKENS)
 _ROLES = {
-    Verb.SERVES: "server",
-    Verb.PUBLISHES: "publisher",
-    Verb.SUBSCRIBES: "subscriber",
+    PortAction.SERVES: "server",
+    PortAction.PUBLISHES: "publisher",
+    PortAction.SUBSCRIBES: "subscriber",
 }
 
 
@@ -88,12 +88,12 @@ class AccessRules(ValueRecord):
 
 
 def access_rules(
-    deployment: Deployment, domain: str, rewirings: Iterable[Rewiring] = ()
+    deployment: Deployment, domain: str, added: Iterable[AddedConnection] = ()
 ) -> AccessRules:
-    """The rules of a deployment in `domain`; `rewirings` are added to its connections."""
+    """The rules of a deployment in `domain`; `added` are added to its connections."""
     processes = process_names(deployment)
     members: dict[str, list[tuple[str, tuple[PortUse, ...]]]] = {}
-    for name, uses in port_uses(deployment, rewirings).items():
+    for name, uses in port_uses(deployment, added).items():
         members.setdefault(common_name(processes[name]), []).append((name, uses))
     components = tuple(_access(domain, name, parts) for name, parts in members.items())
     routers = (router_name(host) for host in used_hosts(deployment))
@@ -149,16 +149,16 @@ class _Keys:
         """The grants for all uses of its ports."""
         yield from self._presence()
         for use in uses:
-            if use.verb in _ROLES:
+            if use.action in _ROLES:
                 yield Grant(IN, TOKEN, self._port_token(use))
-            match use.verb:
-                case Verb.SERVES:
+            match use.action:
+                case PortAction.SERVES:
                     yield from self._serving(use)
-                case Verb.CALLS:
+                case PortAction.CALLS:
                     yield from self._calling(use)
-                case Verb.PUBLISHES:
+                case PortAction.PUBLISHES:
                     yield from self._publishing(use)
-                case Verb.SUBSCRIBES:
+                case PortAction.SUBSCRIBES:
                     yield from self._subscribing(use)
 
     def _presence(self) -> Iterator[Grant]:
@@ -177,7 +177,7 @@ class _Keys:
 
     def _port_token(self, use: PortUse) -> str:
         interface, port = escape_chunk(use.interface), escape_chunk(use.port)
-        role = _ROLES[use.verb]
+        role = _ROLES[use.action]
         return f"{self._root}/p/{role}/{interface}/{self._component}/{port}/*/*/*/*"
 
     def _key(self, kind: str, use: PortUse, component: str, port: str) -> str:

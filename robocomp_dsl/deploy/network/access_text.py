@@ -57,23 +57,23 @@ def _own_uses(component: ComponentAccess) -> Iterator[PortUse]:
 
 def _describe(use: PortUse) -> str:
     kinds = [kind for kind, has in (("queries", use.queries), ("commands", use.commands)) if has]
-    service = f" ({' and '.join(kinds)})" if use.verb in ("serves", "calls") else ""
+    service = f" ({' and '.join(kinds)})" if use.action in ("serves", "calls") else ""
     over = "" if use.on_house else ", over another middleware"
     match use.peer, use.peer_port:
         case "", _:
-            return f"{use.verb} {use.interface}{service} as {use.port}{over}"
+            return f"{use.action} {use.interface}{service} as {use.port}{over}"
         case peer, _ if peer == ANY:
             target = "any component"
         case peer, port if port == ANY:
             target = peer
         case peer, port:
             target = f"{peer}.{port}"
-    return f"{use.verb} {use.interface}{service} of {target} as {use.port}{over}"
+    return f"{use.action} {use.interface}{service} of {target} as {use.port}{over}"
 
 
 def _use_data(use: PortUse) -> dict[str, Any]:
     return {
-        "verb": str(use.verb),
+        "action": str(use.action),
         "interface": use.interface,
         "port": use.port,
         "peer": use.peer,

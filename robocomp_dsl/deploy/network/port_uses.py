@@ -31,7 +31,7 @@ CLOCK_PORT = "Clock of the deployment"
 FOLLOWER_PORT, LEADER_PORT = "Follower", "Leader"
 
 
-class Verb(StrEnum):
+class PortAction(StrEnum):
     """What a component does with a port."""
 
     SERVES = "serves"
@@ -49,7 +49,7 @@ class PortUse(ValueRecord):
     runtime adds it to every component.
     """
 
-    verb: Verb
+    action: PortAction
     interface: str
     port: str
     peer: str = ""
@@ -60,7 +60,7 @@ class PortUse(ValueRecord):
     from_runtime: bool = False
 
 
-class Rewiring(ValueRecord):
+class AddedConnection(ValueRecord):
     """A connection that the operator made at run time: full names and ports.
 
     As in `Connection`, `source` requires or publishes, `target` implements or subscribes.
@@ -73,10 +73,10 @@ class Rewiring(ValueRecord):
 
 
 def port_uses(
-    deployment: Deployment, rewirings: Iterable[Rewiring] = ()
+    deployment: Deployment, added_connections: Iterable[AddedConnection] = ()
 ) -> dict[str, tuple[PortUse, ...]]:
-    """The uses of each component, by full name; `rewirings` are added to the connections."""
-    added = tuple(rewirings)
+    """The uses of each component, by full name; with the added connections."""
+    added = tuple(added_connections)
     index = ConnectionIndex(deployment.connections)
     return {
         instance.full_name: tuple(
@@ -95,7 +95,9 @@ def port_uses(
 
 def _runtime() -> Iterator[PortUse]:
     for interface in COMPONENT_INTERFACES:
-        yield PortUse(Verb.SERVES, interface, COMPONENT_PORT, commands=True, from_runtime=True)
+        yield PortUse(
+            PortAction.SERVES, interface, COMPONENT_PORT, commands=True, from_runtime=True
+        )
 
 
 def _clock(deployment: Deployment, instance: Instance) -> Iterator[PortUse]:
@@ -107,20 +109,25 @@ def _clock(deployment: Deployment, instance: Instance) -> Iterator[PortUse]:
     if not clock.lockstep:
         if instance is not source:
             yield PortUse(
-                Verb.SUBSCRIBES, CLOCK, CLOCK_PORT, source.full_name, ANY, from_runtime=True
+                PortAction.SUBSCRIBES, CLOCK, CLOCK_PORT, source.full_name, ANY, from_runtime=True
             )
     elif instance is not source:
-        yield PortUse(Verb.SERVES, FOLLOWER, FOLLOWER_PORT, from_runtime=True)
+        yield PortUse(PortAction.SERVES, FOLLOWER, FOLLOWER_PORT, from_runtime=True)
         yield PortUse(
-            Verb.CALLS, LEADER, LEADER_PORT, source.full_name, LEADER_PORT, from_runtime=True
+            PortAction.CALLS, LEADER, LEADER_PORT, source.full_name, LEADER_PORT, from_runtime=True
         )
     else:
-        yield PortUse(Verb.SERVES, LEADER, LEADER_PORT, from_runtime=True)
+        yield PortUse(PortAction.SERVES, LEADER, LEADER_PORT, from_runtime=True)
         for other in deployment.instances:
             if other is not source and not other.is_program:
                 name = f"{FOLLOWER_PORT} {other.full_name}"
                 yield PortUse(
-                    Verb.CALLS, FOLLOWER, name, other.full_name, FOLLOWER_PORT, from_runtime=True
+                    PortAction.CALLS,
+                    FOLLOWER,
+                    name,
+                    other.full_name,
+                    FOLLOWER_PORT,
+                    from_runtime=True,
                 )
 
 
@@ -128,11 +135,11 @@ def _declared(
     deployment: Deployment,
     instance: Instance,
     connections: Sequence[Connection],
-    rewirings: Sequence[Rewiring],
+    added: Sequence[AddedConnection],
 ) -> Iterator[PortUse]:
     """The uses of the ports of the CDSL file."""
     for port in instance.component.ports:
-        uses = _PortUses(deployment, instance, port, connections, rewirings)
+        uses = _PortUses(deployment, instance, port, connections, added)
         yield from uses.plain()
         if deployment.clock.lockstep and port.interface.qualified != CLOCK:
             yield from uses.timed()
@@ -147,12 +154,12 @@ class _PortUses:
         instance: Instance,
         port: Port,
         connections: Sequence[Connection],
-        rewirings: Sequence[Rewiring],
+        added: Sequence[AddedConnection],
     ) -> None:
         self._instance = instance
         self._port = port
         self._own_connections = connections
-        self._rewirings = rewirings
+        self._added = added
         patterns = {port.pattern(operation) for operation in port.interface.operations}
         self._queries = bool(patterns - {Pattern.COMMAND})
         self._commands = Pattern.COMMAND in patterns
@@ -163,16 +170,18 @@ class _PortUses:
         """The uses of the interface itself."""
         role, name = self._port.role, self._port.name
         if role is Role.PUBLISHES:
-            yield self._use(Verb.PUBLISHES, name)
+            yield self._use(PortAction.PUBLISHES, name)
         elif role is Role.IMPLEMENTS:
             for own in (name, *self._connection_ports()):
-                yield self._use(Verb.SERVES, own)
+                yield self._use(PortAction.SERVES, own)
         else:
-            yield from self._searching(Verb.CALLS if role is Role.REQUIRES else Verb.SUBSCRIBES)
+            yield from self._searching(
+                PortAction.CALLS if role is Role.REQUIRES else PortAction.SUBSCRIBES
+            )
 
-    def _use(self, verb: Verb, port: str, peer: str = "", peer_port: str = "") -> PortUse:
+    def _use(self, action: PortAction, port: str, peer: str = "", peer_port: str = "") -> PortUse:
         return PortUse(
-            verb,
+            action,
             self._port.interface.qualified,
             port,
             peer,
@@ -182,37 +191,37 @@ class _PortUses:
             self._on_house,
         )
 
-    def _searching(self, verb: Verb) -> Iterator[PortUse]:
+    def _searching(self, action: PortAction) -> Iterator[PortUse]:
         """The uses of a port that looks for its peers."""
         name = self._port.name
         connections = list(self._connections())
-        rewired = list(self._rewired_peers())
-        if not connections and not rewired and not self._has_external_peer():
-            yield self._use(verb, name, ANY, ANY)
+        peers_added = list(self._added_peers())
+        if not connections and not peers_added and not self._has_external_peer():
+            yield self._use(action, name, ANY, ANY)
         for peer, port, monitored in connections:
-            yield self._use(verb, name, peer.full_name, self._peer_port(peer, port, verb))
-            if monitored and verb is Verb.CALLS:
+            yield self._use(action, name, peer.full_name, self._peer_port(peer, port, action))
+            if monitored and action is PortAction.CALLS:
                 own = f"{self._instance.full_name}.{name}"
-                yield self._use(verb, name, peer.full_name, connection_port(port.name, own))
+                yield self._use(action, name, peer.full_name, connection_port(port.name, own))
             elif monitored:
                 own = connection_port(name, f"{peer.full_name}.{port.name}")
-                yield self._use(verb, own, peer.full_name, self._peer_port(peer, port, verb))
-        for peer_name, port_name in rewired:
-            yield self._use(verb, name, peer_name, port_name)
+                yield self._use(action, own, peer.full_name, self._peer_port(peer, port, action))
+        for peer_name, port_name in peers_added:
+            yield self._use(action, name, peer_name, port_name)
 
     def timed(self) -> Iterator[PortUse]:
         """The uses of the timed interface, in lock-step: all of them are queries."""
         role, name = self._port.role, self._port.name
         if role is Role.REQUIRES:
-            for use in self._searching(Verb.CALLS):
+            for use in self._searching(PortAction.CALLS):
                 yield self._timed(use)
         elif role is Role.PUBLISHES:
             for peer, port, _ in self._connections():
                 own = f"{name} to {peer.full_name}.{port.name}"
-                yield self._timed(self._use(Verb.CALLS, own, peer.full_name, port.name))
+                yield self._timed(self._use(PortAction.CALLS, own, peer.full_name, port.name))
         else:
             for own in (name, *self._connection_ports()):
-                yield self._timed(self._use(Verb.SERVES, own))
+                yield self._timed(self._use(PortAction.SERVES, own))
 
     def _timed(self, use: PortUse) -> PortUse:
         interface = f"{use.interface} in step"
@@ -243,16 +252,16 @@ class _PortUses:
             if monitored:
                 yield connection_port(self._port.name, f"{peer.full_name}.{port.name}")
 
-    def _peer_port(self, peer: Instance, port: Port, verb: Verb) -> str:
+    def _peer_port(self, peer: Instance, port: Port, action: PortAction) -> str:
         """A subscription names the component only, if it has one such port."""
         same = [
             p for p in peer.component.ports if p.role is port.role and p.interface is port.interface
         ]
-        return ANY if verb is Verb.SUBSCRIBES and len(same) == 1 else port.name
+        return ANY if action is PortAction.SUBSCRIBES and len(same) == 1 else port.name
 
-    def _rewired_peers(self) -> Iterator[tuple[str, str]]:
+    def _added_peers(self) -> Iterator[tuple[str, str]]:
         name, port = self._instance.full_name, self._port.name
-        for each in self._rewirings:
+        for each in self._added:
             service = self._port.role is Role.REQUIRES
             own = (each.source, each.source_port) if service else (each.target, each.target_port)
             if own == (name, port):

@@ -43,7 +43,7 @@ class KeyChange(ValueRecord):
 
 def update_keys(
     deployment: str,
-    wanted: Iterable[Identity],
+    required: Iterable[Identity],
     folder: KeyFolder,
     now: datetime,
     *,
@@ -62,7 +62,7 @@ def update_keys(
     )
     # No certificate is valid for longer than its authority.
     end = min(now + timedelta(days=days), changes[0].facts.end)
-    for identity in wanted:
+    for identity in required:
         reason = outdated_reason(identity, folder, now)
         if reason:
             existed = folder.certificate(identity.name).exists()

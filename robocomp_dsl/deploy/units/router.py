@@ -21,6 +21,9 @@ MODULE = "robocomp_dsl.runtime.router"
 START_TIMEOUT_S = 30
 WATCHDOG_S = 10
 
+_COPY = 'cmp -s "$0" "$1" || cp -f "$0" "$1"'
+"""Copies a file that differs: a router starts again on a full disk."""
+
 
 @dataclass(frozen=True, slots=True)
 class HostedRouter:
@@ -44,7 +47,7 @@ def router_unit(router: HostedRouter, deployment: str) -> str:
     log = path(f"{router.root}/{names.log_file(router.name)}", HOST_PATHS)
     settings = f"{router.root}/{SETTINGS_FILE}"
     command = [router.python, "-m", MODULE, settings, "--log-format", "json"]
-    copy = command_line(["/usr/bin/env", "cp", "-f", router.settings, settings], HOST_PATHS)
+    copy = command_line(["/usr/bin/env", "sh", "-c", _COPY, router.settings, settings], HOST_PATHS)
     head = [
         "[Unit]",
         f"Description={path(f'{router.name} of {deployment}')}",
@@ -55,7 +58,7 @@ def router_unit(router: HostedRouter, deployment: str) -> str:
         "[Service]",
         "Type=notify",
         "NotifyAccess=all",
-        f"ExecStartPre={log_mark('starting')}",
+        f"ExecStartPre=-{log_mark('starting')}",
         f"ExecStartPre={copy}",
         f"ExecStart={command_line(command, HOST_PATHS)}",
         f"ExecReload={copy}",
@@ -66,7 +69,7 @@ def router_unit(router: HostedRouter, deployment: str) -> str:
         "Restart=always",
         f"RestartSec={RESTART_DELAY_S:g}",
         f"TimeoutStopSec={GRACE_S:g}",
-        f"ExecStopPost={log_mark(END_TEXT)}",
+        f"ExecStopPost=-{log_mark(END_TEXT)}",
         "Environment=PYTHONUNBUFFERED=1",
         f"StandardOutput=append:{log}",
         f"StandardError=append:{log}",

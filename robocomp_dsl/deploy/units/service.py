@@ -117,7 +117,7 @@ def _start(hosted: HostedProcess, log: str) -> Iterator[str]:
     yield f"Type={'notify' if sends_ready else 'exec'}"
     yield "NotifyAccess=all"
     yield f"WorkingDirectory={path(str(process.cwd), HOST_PATHS)}"
-    yield f"ExecStartPre={log_mark('starting')}"
+    yield f"ExecStartPre=-{log_mark('starting')}"
     yield f"ExecStart={_words(_command(process))}"
     if not sends_ready:
         yield f"ExecStartPost={_readiness(hosted, log)}"
@@ -169,7 +169,7 @@ def _end(process: Process) -> Iterator[str]:
     yield "KillMode=control-group"
     yield f"TimeoutStopSec={GRACE_S:g}"
     yield "SuccessExitStatus=143"
-    yield f"ExecStopPost={log_mark(END_TEXT)}"
+    yield f"ExecStopPost=-{log_mark(END_TEXT)}"
 
 
 def _environment(hosted: HostedProcess) -> Iterator[str]:

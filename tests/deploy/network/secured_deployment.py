@@ -20,7 +20,7 @@ from robocomp_dsl.deploy.network.access_rules import AccessRules, access_rules
 from robocomp_dsl.deploy.network.identities import common_name, identities, router_name, used_hosts
 from robocomp_dsl.deploy.network.key_folder import KeyFolder, key_folder
 from robocomp_dsl.deploy.network.operator_settings import write_operator_settings
-from robocomp_dsl.deploy.network.port_uses import Rewiring
+from robocomp_dsl.deploy.network.port_uses import AddedConnection
 from robocomp_dsl.deploy.network.router_plan import component_settings, router_settings
 from robocomp_dsl.deploy.network.update_keys import update_keys
 from robocomp_dsl.deploy.plan import plan
@@ -190,8 +190,8 @@ class SecuredDeployment:
     def hosts(self) -> tuple[Host, ...]:
         return used_hosts(self.deployment)
 
-    def rules(self, rewirings: Sequence[Rewiring] = ()) -> AccessRules:
-        return access_rules(self.deployment, self.domain, rewirings)
+    def rules(self, added: Sequence[AddedConnection] = ()) -> AccessRules:
+        return access_rules(self.deployment, self.domain, added)
 
     def write_settings(self, rules: AccessRules | None = None) -> None:
         """Write the settings of all routers and components into the folder of the keys."""

@@ -16,7 +16,7 @@ from robocomp_dsl.deploy.network.access_rules import (
     access_rules,
 )
 from robocomp_dsl.deploy.network.access_text import access_data, access_text
-from robocomp_dsl.deploy.network.port_uses import Rewiring
+from robocomp_dsl.deploy.network.port_uses import AddedConnection
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.deployment import Deployment
 from tests.deploy.network.secured_deployment import IDSL
@@ -117,7 +117,7 @@ def test_access_rules_let_unconnected_optional_port_look_for_any_peer(tmp_path: 
 def test_access_rules_extend_to_rewired_connections(tmp_path: Path) -> None:
     body = f"{PAIR} component spare : server on robot; connect client.Job -> server.Job;"
     deployment = deployment_of(tmp_path, body)
-    rewired = Rewiring("client", "Job", "spare", "Job")
+    rewired = AddedConnection("client", "Job", "spare", "Job")
     key = "rc/app/q/Tasks::Job/*/spare/Job/*"
     assert key not in keys_of(access_rules(deployment, "app"), "client", "ingress", "query")
     rules = access_rules(deployment, "app", [rewired])

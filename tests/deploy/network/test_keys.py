@@ -249,9 +249,9 @@ def test_rcdeploy_keys_makes_and_shows_keys(
     missing = rcdeploy("keys", str(app), "--show")
     assert missing.returncode == 1
     assert "RC850" in missing.stderr
-    made = rcdeploy("keys", str(app), "--days", "30")
-    assert made.returncode == 0, made.stderr
-    assert re.search(r"worker +component +\S+, in (29|30) days +[0-9a-f]{16} +new", made.stdout)
+    first = rcdeploy("keys", str(app), "--days", "30")
+    assert first.returncode == 0, first.stderr
+    assert re.search(r"worker +component +\S+, in (29|30) days +[0-9a-f]{16} +new", first.stdout)
     shown = rcdeploy("keys", str(app), "--show", "--format", "json")
     names = [entry["name"] for entry in json.loads(shown.stdout)]
     assert names == ["ca", "worker", "boss", "router.left", "router.right", "rcdeploy"]

@@ -173,9 +173,9 @@ def test_explain_failure_names_unknown_host_and_closed_port(
 
 def test_explain_failure_names_key_of_another_certificate(running: Running, tmp_path: Path) -> None:
     site, _ = running
-    one = settings_with(site.keys, tmp_path / "one", endpoints(site))
+    own = settings_with(site.keys, tmp_path / "own", endpoints(site))
     other = settings_with(site.keys, tmp_path / "other", endpoints(site))
-    text = refusal(NetworkSettings(one.endpoints, one.ca, one.certificate, other.key))
+    text = refusal(NetworkSettings(own.endpoints, own.ca, own.certificate, other.key))
     assert "cannot be used" in text
     assert "rcdeploy keys APP.ddsl" in text
 

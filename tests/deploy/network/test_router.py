@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from robocomp_dsl.deploy.network.port_uses import Rewiring
+from robocomp_dsl.deploy.network.port_uses import AddedConnection
 from robocomp_dsl.runtime.client import load_generated_interfaces
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.presence.network_settings import InvalidNetwork, domain_settings_path
@@ -112,7 +112,7 @@ def test_router_reload_allows_rewired_connection(
         record = registry.find("server", interface.name)[0]
         lost: list[object] = []
         registry.on_lost(record, lambda: lost.append(record))
-        site.write_settings(site.rules([Rewiring("boss", "Job", "spare", "Job")]))
+        site.write_settings(site.rules([AddedConnection("boss", "Job", "spare", "Job")]))
         router.process.send_signal(signal.SIGHUP)
         router.until("uses new settings")
         assert wait_until(lambda: operations["twice"](2), ignoring=MiddlewareError) == 6

@@ -14,10 +14,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.hosts.faults.loaded_app import LoadedApp, make_loaded_app
+from tests.hosts.faults.loaded_app import LoadedApp, journals_of, make_loaded_app
 from tests.hosts.rig.hosts import Hosts
 from tests.hosts.rig.namespaces import TestNetwork
-
 
 DISK_BYTES = 2_000_000_000
 """The size of the home of `robot`."""
@@ -32,6 +31,9 @@ def loaded_app(
     try:
         hosts.start("robot", disk_bytes=DISK_BYTES)
         hosts.start("base")
+        for host in hosts.by_name.values():
+            journals_of(host).mkdir()
+            os.chown(journals_of(host), host.uid, host.uid)
         yield make_loaded_app(tmp_path_factory.mktemp("deployment") / "app", hosts)
     finally:
         hosts.close()

@@ -1,4 +1,4 @@
-"""Components that load a deployment, and write journals of what they did in `~/journals`.
+"""Components that load a deployment, and write journals of what they did.
 
 `caller` sends numbered commands to `ledger`, and does not repeat one. `ledger` writes each command
 that it executes, `caller` each that is acknowledged: the journals show what was lost or executed
@@ -37,6 +37,7 @@ PARAMETERS = 'ComponentParams faulty { fault string ""; };\n'
 HEAD = """
 from __future__ import annotations
 import os
+import random
 import signal
 import time
 from pathlib import Path
@@ -44,11 +45,10 @@ from {name}_generated.genericworker import GenericWorker
 from {name}_generated.interfaces import *
 from robocomp_dsl.runtime.errors import MiddlewareError
 
-JOURNALS = Path.home() / "journals"
+JOURNALS = Path("/run/host/journals")
 
 
 def open_journal(name):
-    JOURNALS.mkdir(exist_ok=True)
     return os.open(JOURNALS / name, os.O_APPEND | os.O_CREAT | os.O_WRONLY)
 
 
@@ -69,13 +69,14 @@ WORKERS = {
     "caller": """
     def initialize(self):
         self.journal, self.number = open_journal("acknowledged"), 0
+        self.identity = random.getrandbits(31)
     def compute(self):
         self.number += 1
         try:
-            self.ledger_proxy.add(os.getpid(), self.number)
+            self.ledger_proxy.add(self.identity, self.number)
         except MiddlewareError:
             return
-        write(self.journal, os.getpid(), self.number, time.monotonic())
+        write(self.journal, self.identity, self.number, time.monotonic())
 """,
     "source": """
     number = 0

@@ -91,19 +91,18 @@ class LoadedApp(HostedApp):
         The time is that of systemd. Looking seldom leaves the processors to the components.
         """
 
-        def is_ready() -> Unit | None:
+        def ready_time() -> float:
             unit = self.unit(component)
             if unit.active == "active" and unit.ready_at > since:
-                return unit
+                return unit.ready_at
             time.sleep(LOOK_S)
-            return None
+            return 0.0
 
-        unit = wait_until(is_ready, lambda: f"{component}: {self.unit(component)}")
-        return unit.ready_at - since
+        return wait_until(ready_time, lambda: f"{component}: {self.unit(component)}") - since
 
     def journal(self, component: str, name: str) -> list[tuple[str, int, float]]:
         """The lines of a journal: process, number, time."""
-        path = self.host_of(component).home / "journals" / name
+        path = journals_of(self.host_of(component)) / name
         lines = path.read_text("ascii").splitlines() if path.exists() else []
         fields = (line.split() for line in lines)
         return [(process, int(number), float(moment)) for process, number, moment in fields]
@@ -139,6 +138,11 @@ class LoadedApp(HostedApp):
         """How often a call was executed again."""
         executed = [entry[:2] for entry in self.journal("ledger", "executed")]
         return len(executed) - len(set(executed))
+
+
+def journals_of(host: SimulatedHost) -> Path:
+    """The folder of the journals, which a full disk and a power failure spare."""
+    return Path(host.settings.files, "journals")
 
 
 def kill_unit(host: SimulatedHost, pid: int) -> float:

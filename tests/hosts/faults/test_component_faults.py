@@ -33,10 +33,14 @@ def row_when(
     app: LoadedApp, component: str, condition: Callable[[ProcessStatus], bool]
 ) -> ProcessStatus:
     """The status of a component as soon as `condition` holds."""
-    return wait_until(
-        lambda: row if condition(row := app.row(component)) else None,
-        lambda: f"{app.row(component)}\n{app.lines}",
-    )
+    rows: list[ProcessStatus] = []
+
+    def holds() -> bool:
+        rows.append(app.row(component))
+        return condition(rows[-1])
+
+    wait_until(holds, lambda: f"{rows[-1]}\n{app.lines}")
+    return rows[-1]
 
 
 def was_restarted(row: ProcessStatus) -> bool:

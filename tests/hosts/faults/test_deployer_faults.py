@@ -47,9 +47,10 @@ def count(folder: Path) -> int:
 
 def is_locked(app: LoadedApp) -> bool:
     """Whether a deployer holds the lock of the deployment on its host."""
-    inode = (root_of(app) / "lock").stat().st_ino
+    lock = (root_of(app) / "lock").stat()
+    file = f"{os.major(lock.st_dev):02x}:{os.minor(lock.st_dev):02x}:{lock.st_ino}"
     locks = Path("/proc/locks").read_text("ascii").splitlines()
-    return any(line.split()[5].endswith(f":{inode}") for line in locks if "FLOCK" in line)
+    return any(file in line.split() for line in locks if "FLOCK" in line)
 
 
 Moment = Callable[[LoadedApp, RcdeployRun], Callable[[], object]]

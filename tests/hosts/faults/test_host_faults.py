@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from itertools import pairwise
 from statistics import median
 
 import pytest
@@ -41,7 +42,7 @@ def durations(app: LoadedApp, count: int, since: float) -> list[float]:
 
     wait_until(lambda: len(times()) > count, lambda: f"{len(times())} calls")
     found = times()[: count + 1]
-    return [after - before for before, after in zip(found, found[1:], strict=False)]
+    return [after - before for before, after in pairwise(found)]
 
 
 def missed_numbers(app: LoadedApp, since: float) -> tuple[int, int]:
@@ -112,6 +113,7 @@ def test_taken_port_of_router_is_reported(app: LoadedApp, record_property: Recor
     port = router_port(deployment.name, host)
     taker = robot.popen(["python3", "-c", LISTEN, str(port)], stdin=-1, stdout=-1)
     try:
+        assert taker.stdout
         assert taker.stdout.readline() == b"listens\n"
         start = time.monotonic()
         with RcdeployRun("up", app.path) as run:
@@ -120,6 +122,9 @@ def test_taken_port_of_router_is_reported(app: LoadedApp, record_property: Recor
         seconds = time.monotonic() - start
         assert f"port {port}" in text
         assert "another program uses the port" in text
+        assert "RC870" in text
+        assert f"{app.path.name}:" in text
+        assert "nothing was changed" in text
         assert {unit.pid for unit in app.units().values()} == {0}, text
     finally:
         taker.communicate()
@@ -144,9 +149,10 @@ def test_full_disk_is_reported_before_anything_changes(
             assert "nothing was changed" in run.output
             assert "Traceback" not in run.output
         assert app.unit_pids() == before
-        # The journals cannot be written, but the components answer and restart.
         killed = app.kill("sink")
-        app.ready_again("sink", killed)
+        restarted = killed + app.ready_again("sink", killed)
+        app.first_after("sink", "received", restarted)
+        app.first_after("caller", "acknowledged", restarted)
         assert app.row("ledger").state == "ready"
     finally:
         robot.limit_disk(1_000_000_000)

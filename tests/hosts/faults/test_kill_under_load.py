@@ -45,7 +45,8 @@ def loaded(app: LoadedApp) -> LoadedApp:
 def test_killed_components_lose_no_acknowledged_call(
     loaded: LoadedApp, record_property: Record
 ) -> None:
-    ready, used = [], []
+    ready: list[float] = []
+    used: list[float] = []
     for component in UNDER_LOAD * ROUNDS:
         others = {name: pid for name, pid in loaded.unit_pids().items() if name != component}
         killed = loaded.kill(component)
@@ -59,8 +60,8 @@ def test_killed_components_lose_no_acknowledged_call(
     record_property("kill -9: acknowledged calls", len(loaded.journal("caller", "acknowledged")))
     record_property("kill -9: acknowledged calls lost", 0)
     record_property("kill -9: calls executed twice", loaded.doubled_calls())
-    for label, seconds in (("ready", ready), ("in use by its peers", used)):
-        shares = f"{median(seconds):.2f}, {percentile(seconds, 0.99):.2f}, {max(seconds):.2f}"
+    for label, times in (("ready", ready), ("in use by its peers", used)):
+        shares = f"{median(times):.2f}, {percentile(times, 0.99):.2f}, {max(times):.2f}"
         record_property(f"kill -9 → {label}: p50, p99, max [s]", shares)
 
 

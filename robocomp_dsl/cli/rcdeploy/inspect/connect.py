@@ -9,6 +9,7 @@ from robocomp_dsl.cli.rcdeploy.inspect import ddsl_changes
 from robocomp_dsl.cli.rcdeploy.inspect.completion import complete_ports
 from robocomp_dsl.cli.rcdeploy.inspect.granted_connections import grant_connection
 from robocomp_dsl.cli.rcdeploy.inspect.target import (
+    CALL_TIMEOUT_S,
     DomainTarget,
     InspectCommand,
     open_client,
@@ -55,9 +56,14 @@ def command(
         return
     with open_client(target) as client:
         ends = calls.find_ends(client, target, source, peer)
-        own = ends.searching
-        grant_connection(target, ends)
-        proxy = calls.connections_proxy(client, own.component)
+    own = ends.searching
+    # Routers that read new settings close the links of their clients, also that of this command.
+    is_granted = grant_connection(target, ends)
+    with open_client(target) as client:
+        timeout = calls.RECONNECT_TIMEOUT_S if is_granted else CALL_TIMEOUT_S
+        proxy = calls.connections_proxy(client, own.component, timeout)
+        if is_granted:
+            calls.wait_until_answering(proxy)
         with calls.refusals_of(own.component):
             proxy.connect(own.port, f"/{ends.found.name}", over)
         state = calls.wait_until_connected(proxy, own.port, ends.found.name)

@@ -23,6 +23,8 @@ SERVE_TIMEOUT_S = 1.0
 """A component serves its connections at the same moment as the interface `Component`."""
 CONNECT_TIMEOUT_S = 2.0
 """A peer that runs is connected within this time."""
+RECONNECT_TIMEOUT_S = 30.0
+"""A component connects again to its router within this time."""
 _POLL_S = 0.02
 DIRECTIONS = (("requires", "implements"), ("publishes", "subscribesTo"))
 """The roles of source and target, as in `connect source -> target`."""
@@ -65,15 +67,17 @@ class ConnectionEnds:
         return f"{self.source.name} -> {self.target.name}"
 
 
-def connections_proxy(client: DomainClient, component: str) -> ComponentConnectionsProxy:
-    """The proxy of a component that answers. Raises `CliError`."""
+def connections_proxy(
+    client: DomainClient, component: str, timeout: float = CALL_TIMEOUT_S
+) -> ComponentConnectionsProxy:
+    """The proxy of a component that answers within `timeout` s. Raises `CliError`."""
     from robocomp_dsl.cli.rcdeploy.inspect.component_calls import connect  # noqa: PLC0415
     from robocomp_dsl.runtime.connection.connections_interface import (  # noqa: PLC0415
         COMPONENTCONNECTIONS,
         ComponentConnectionsProxy,
     )
 
-    connect(client, component)
+    connect(client, component, timeout)
     channel = client.channel(COMPONENTCONNECTIONS, component, "Component")
     proxy = ComponentConnectionsProxy(channel)
     proxy.set_timeout(CALL_TIMEOUT_S)
@@ -84,6 +88,22 @@ def connections_proxy(client: DomainClient, component: str) -> ComponentConnecti
             " robocomp_dsl; update it and start it again",
         )
     return proxy
+
+
+def wait_until_answering(proxy: ComponentConnectionsProxy) -> None:
+    """Wait until a component has connected again to its router, and answers."""
+    from robocomp_dsl.runtime.errors import MiddlewareError  # noqa: PLC0415
+
+    deadline = time.monotonic() + RECONNECT_TIMEOUT_S
+    while True:
+        try:
+            proxy.getConnections()
+        except MiddlewareError:
+            if time.monotonic() > deadline:
+                raise
+            time.sleep(_POLL_S)
+        else:
+            return
 
 
 def wait_until_connected(proxy: ComponentConnectionsProxy, port: str, peer: str) -> str:

@@ -15,21 +15,28 @@ if TYPE_CHECKING:
     from robocomp_dsl.cli.rcdeploy.inspect.target import DomainTarget
 
 
-def grant_connection(target: DomainTarget, ends: ConnectionEnds) -> None:
-    """Allow the connection in the rules of all routers. Raises `CliError`."""
+def has_routers(target: DomainTarget) -> bool:
+    """Whether the deployment is on several hosts."""
     from robocomp_dsl.deploy.supervisor_engine import SupervisorEngine  # noqa: PLC0415
 
-    if target.engine is None or isinstance(target.engine, SupervisorEngine):
-        return
+    return target.engine is not None and not isinstance(target.engine, SupervisorEngine)
+
+
+def grant_connection(target: DomainTarget, ends: ConnectionEnds) -> bool:
+    """Allow the connection in the rules of all routers; whether they changed. Raises `CliError`."""
+    if not has_routers(target):
+        return False
     from robocomp_dsl.deploy.hosts.access_changes import CannotGrant, grant  # noqa: PLC0415 - loads asyncssh
     from robocomp_dsl.deploy.hosts.host_engine import HostEngine  # noqa: PLC0415
-    from robocomp_dsl.deploy.network.port_uses import Rewiring  # noqa: PLC0415
+    from robocomp_dsl.deploy.network.port_uses import AddedConnection  # noqa: PLC0415
 
     assert isinstance(target.engine, HostEngine)  # noqa: S101 - the other kind of engine
     source, sink = ends.source, ends.target
-    connection = Rewiring(source.component, source.port, sink.component, sink.port)
+    connection = AddedConnection(source.component, source.port, sink.component, sink.port)
     try:
-        if grant(target.engine.deployment, connection):
-            print("the routers of all hosts pass the connection")
+        is_changed = grant(target.engine.deployment, connection)
     except CannotGrant as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None
+    if is_changed:
+        print("the routers of all hosts pass the connection")
+    return is_changed

@@ -6,6 +6,7 @@ import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy.inspect.completion import complete_ports
+from robocomp_dsl.cli.rcdeploy.inspect.granted_connections import has_routers
 from robocomp_dsl.cli.rcdeploy.inspect.target import (
     ROLE_NAMES,
     InspectCommand,
@@ -24,6 +25,9 @@ def command(port: str, name: str, *, deployment: str | None, domain: str | None)
     from robocomp_dsl.cli.rcdeploy.inspect import connection_calls as calls  # noqa: PLC0415
 
     target = resolve_domain(deployment, domain)
+    if has_routers(target):
+        text = "the routers between the hosts pass the described names of ports only"
+        raise CliError(EXIT_FINDINGS, f"`{port}` is not renamed: {text}")
     with open_client(target) as client:
         component, own = target.split(port)
         if not own:
