@@ -99,6 +99,8 @@ class HostSession:
         await self._send(request)
         assert self._process is not None  # noqa: S101 - it was sent to
         count = await self._process.readline()
+        while count and not count.strip().isdigit():  # a login script may print something
+            count = await self._process.readline()
         if not count:
             raise self._ended(await self._close())
         pieces = [await self._process.readline() for _ in range(int(count))]
