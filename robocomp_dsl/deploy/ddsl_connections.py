@@ -16,7 +16,7 @@ from robocomp_dsl.check.passes import check_ddsl
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.deploy.ddsl_qos import changed_qos, format_statements
 from robocomp_dsl.deploy.ddsl_settings import CannotEdit
-from robocomp_dsl.deploy.write_text import CannotWrite, write_text
+from robocomp_dsl.deploy.write_text import FileNotReplaced, write_text
 from robocomp_dsl.diagnostics import Report, Severity
 from robocomp_dsl.model.deployment import Connection, Deployment
 from robocomp_dsl.source import Source, UnreadableSource
@@ -162,7 +162,7 @@ class _Editor:
             raise CannotEdit(f"{self._path.name} is unchanged: {lost} would be lost")
         try:
             write_text(self._path, text)
-        except CannotWrite as error:
+        except FileNotReplaced as error:
             raise CannotEdit(str(error)) from None
 
     def _check(self, text: str, problem: str) -> Deployment:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
 
-from robocomp_dsl.deploy.write_text import CannotWrite, write_text
+from robocomp_dsl.deploy.write_text import FileNotReplaced, write_text
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.runtime.parameters.overrides import parse_path
 from robocomp_dsl.source import Source, UnreadableSource
@@ -56,7 +56,7 @@ def write_settings(path: Path, instance: str, values: dict[str, str]) -> None:
         for parameter, literal in values.items():
             text = edit_text(text, path, instance, parameter, literal)
         write_text(path, text)
-    except CannotWrite as error:
+    except FileNotReplaced as error:
         raise CannotEdit(str(error)) from None
     except UnicodeDecodeError:
         raise CannotEdit(f"{path} is not encoded in UTF-8") from None

@@ -86,15 +86,15 @@ def test_write_connection_uses_scopes_and_exports_of_groups(tmp_path: Path) -> N
 
 def test_remove_connection_takes_its_line(tmp_path: Path) -> None:
     head = "    component body;\n    component other : body;\n    component reflex;\n"
-    kept = "    connect other.LaserPub -> reflex.LaserPub;\n"
+    unchanged = "    connect other.LaserPub -> reflex.LaserPub;\n"
     served = "    connect reflex.Laser -> body.Laser;\n"
     gone = "    connect body.LaserPub -> reflex.LaserPub { keep last 1; };\n"
-    path = written(tmp_path, head + gone + kept + served)
+    path = written(tmp_path, head + gone + unchanged + served)
     remove_connection(path, SCAN)
-    assert body_of(path) == head + kept + served
-    path = written(tmp_path, head + kept.rstrip() + gone + served)
+    assert body_of(path) == head + unchanged + served
+    path = written(tmp_path, head + unchanged.rstrip() + gone + served)
     remove_connection(path, SCAN)
-    assert body_of(path).splitlines()[3] == f"{kept.rstrip()}    "
+    assert body_of(path).splitlines()[3] == f"{unchanged.rstrip()}    "
 
 
 def test_remove_connection_that_would_be_implied_is_explained(tmp_path: Path) -> None:

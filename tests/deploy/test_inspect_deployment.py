@@ -31,8 +31,8 @@ def test_inspect_commands_find_components_of_deployment(app_folder: Path) -> Non
         assert rcdeploy("connections", "app").stdout.count("Laser") >= 2
         changed = rcdeploy("qos", "app", "eye.Laser", "arm.Laser", "priority=off")
         assert changed.stdout.startswith("eye.Laser with arm.Laser: the defaults"), changed.stderr
-        kept = rcdeploy("qos", "app", "eye.Laser", "arm.Laser", "priority=low", "--ddsl")
-        assert kept.stdout.splitlines()[-1].startswith("written to "), kept.stderr
+        stored = rcdeploy("qos", "app", "eye.Laser", "arm.Laser", "priority=low", "--ddsl")
+        assert stored.stdout.splitlines()[-1].startswith("written to "), stored.stderr
         statement = "connect eye.Laser -> arm.Laser { priority low; };"
         assert statement in (app_folder / "app.ddsl").read_text()
         wrong = rcdeploy("call", "amr.Laser.getLaserData")
