@@ -38,10 +38,13 @@ for host in sys.argv[2:]:
             probe.listen(1)
             probe.close()
     except OSError as error:
-        print(json.dumps([host, error.errno or 0, error.strerror or str(error)]))
+        reason = error.strerror or str(error)
+        print("robocomp-port " + json.dumps([host, error.errno or 0, reason]))
         break
 """
 """Runs on the host: prints the first address at which no program can listen, and why."""
+_MARK = b"robocomp-port "
+"""Starts the line of `_PROBE`: a login script may print others."""
 
 
 async def check_router_ports(
@@ -61,8 +64,8 @@ async def check_router_ports(
         addresses = [LOOPBACK] if host.is_local else [host.address, LOOPBACK]
         port = str(router_port(deployment.name, host))
         result = await agent.connection.run(["python3", "-c", _PROBE, port, *addresses])
-        found = json.loads(result.stdout) if result.stdout.strip() else []
-        return found if isinstance(found, list) else []
+        lines = [line for line in result.stdout.splitlines() if line.startswith(_MARK)]
+        return list(json.loads(lines[0].removeprefix(_MARK))) if lines else []
 
     for name, found in (await fleet.each(check)).items():
         if found:

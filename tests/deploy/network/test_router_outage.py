@@ -56,7 +56,8 @@ def test_killed_router_looks_like_no_end_of_components(
             news(text)
             return text in received
 
-        wait_until(lambda: hears("first") and latched == ["before"])
+        wait_until(lambda: hears("first"), "the publication did not arrive")
+        wait_until(lambda: latched == ["before"], lambda: f"latched: {latched}")
         routers[host].process.send_signal(signal.SIGKILL)
         routers[host].end()
         with pytest.raises(NoServer, match=r"router|no reply from worker\.Job"):

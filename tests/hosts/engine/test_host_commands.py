@@ -127,7 +127,8 @@ def test_rcdeploy_diff_and_rollback(app: HostedApp, rcdeploy: Commands) -> None:
 def test_rcdeploy_up_on_one_machine_needs_a_free_name(app: HostedApp, rcdeploy: Commands) -> None:
     text = app.path.read_text()
     app.write(APP.replace("on robot", ""))
-    assert "`app` runs on robot; stop it" in rcdeploy("up", "app.ddsl", code=1)
+    once = ("--duration", "0")  # ends if the name is free
+    assert "`app` runs on robot; stop it" in rcdeploy("up", "app.ddsl", *once, code=1)
     app.path.write_text(text)
 
 
