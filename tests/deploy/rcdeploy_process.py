@@ -32,6 +32,7 @@ class RunningProcess:
             start_new_session=True,
         )
         self._limit = threading.Timer(DEADLINE_S, self.process.kill)
+        self._limit.daemon = True
         self._limit.start()
         self.lines: list[str] = []
 

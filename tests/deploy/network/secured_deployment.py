@@ -218,9 +218,17 @@ class SecuredDeployment:
 
     @contextlib.contextmanager
     def routers(self) -> Iterator[list[RunningProcess]]:
-        """The routers of all hosts, which are connected to each other."""
-        with contextlib.ExitStack() as stack:
-            yield [stack.enter_context(self.start_router(host)) for host in self.hosts]
+        """The routers of all hosts, which are connected to each other.
+
+        A test may replace one in the list; all that are in it at the end are ended.
+        """
+        running: list[RunningProcess] = []
+        try:
+            running += [self.start_router(host) for host in self.hosts]
+            yield running
+        finally:
+            for router in running:
+                router.__exit__(None, None, None)
 
     def start(self, name: str, monkeypatch: pytest.MonkeyPatch, *options: str) -> RunningProcess:
         """Start a component as the plan of the deployment says."""
