@@ -46,7 +46,6 @@ def test_killed_router_looks_like_no_end_of_components(
         state = server.publisher(interfaces.STATE, "State", Qos(latched=True))
         received = client.subscribe(interfaces.NEWS, "News", "worker.News", qos=reliable)
         latched = client.subscribe(interfaces.STATE, "State", "worker.State", qos=Qos(latched=True))
-        state("before")
         operations = client.operations(interfaces.JOB, "worker.Job")
         assert wait_until(lambda: operations["twice"](4), ignoring=MiddlewareError) == 8
         lost = follow_losses(client, "server", "Tasks::Job")
@@ -56,8 +55,12 @@ def test_killed_router_looks_like_no_end_of_components(
             news(text)
             return text in received
 
+        def sees(text: str) -> bool:
+            state(text)
+            return text in latched
+
         wait_until(lambda: hears("first"), "the publication did not arrive")
-        wait_until(lambda: latched == ["before"], lambda: f"latched: {latched}")
+        wait_until(lambda: sees("before"), lambda: f"latched: {latched}")
         routers[host].process.send_signal(signal.SIGKILL)
         routers[host].end()
         with pytest.raises(NoServer, match=r"router|no reply from worker\.Job"):
