@@ -58,6 +58,7 @@ def seconds_of_status(app: LoadedApp) -> float:
         return time.monotonic() - start if run.wait() == 0 else 0.0
 
 
+@pytest.mark.slow  # a lost packet may exceed a time limit of ssh
 def test_lossy_slow_link_slows_down_only(loaded: LoadedApp, record_property: Record) -> None:
     robot = loaded.hosts.by_name["robot"]
     before = loaded.unit_pids()
