@@ -16,7 +16,7 @@ import numpy as np
 from robocomp_dsl.simulation.models.model_file import load_model
 from robocomp_dsl.tactile.arm.limb_kinematics import ClosePoint
 from robocomp_dsl.tactile.arrays import Floats, Ints
-from robocomp_dsl.tactile.description.model import GenericPart, Limb, RobotDescription
+from robocomp_dsl.tactile.description.model import Limb, RobotDescription
 from robocomp_dsl.tactile.description.yaml_reader import UNITS
 
 _KEY = "start"
@@ -104,7 +104,7 @@ class BodyModel:
         return rotation @ limb.origin + body.xpos, rotation @ limb.axes
 
     def _distances(self, within: float) -> Iterator[tuple[int, int, float, Floats]]:
-        """Pairs of geoms that are at most `within` apart, their distance and nearest points (6,)."""
+        """Pairs of geoms at most `within` apart, their distance and their nearest points (6,)."""
         if not len(self._pairs):
             return
         centres, radius = self.data.geom_xpos, self.model.geom_rbound

@@ -1,8 +1,8 @@
 """Directions of withdrawal from the current pose: away from the contact, through the Jacobian.
 
-In: contacts on limbs, the pose, the limits of the arm, the kinematics of the robot. Out: a goal that
-moves no contact point towards its touch, and keeps a distance to the rest of the robot. The law
-replaces the direction of a field's motion (equation 6 of Ma and Dahl, 2016) by
+In: contacts on limbs, the pose, the limits of the arm, the kinematics of the robot. Out: a goal
+that moves no contact point towards its touch, and keeps a distance to the rest of the robot. The
+law replaces the direction of a field's motion (equation 6 of Ma and Dahl, 2016) by
 
     d = sum_i b_i a_i / |a_i|,   a_i = J_i(q)^T n_i,   subject to a_i . d >= 0 for all contacts i
 
@@ -13,13 +13,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import Enum
 
 import numpy as np
 
 from robocomp_dsl.tactile.arm.limb_kinematics import LimbKinematics
 from robocomp_dsl.tactile.arrays import Bools, Floats
-from robocomp_dsl.tactile.reflex.withdrawal import ArmProperties
+from robocomp_dsl.tactile.reflex.withdrawal import ArmProperties, LimitCause
 
 STEP = 0.05
 """Length of one integration step [rad]."""
@@ -34,14 +33,6 @@ _PROJECTIONS = 40
 _SHORT = 0.3
 _FEW = 0.2
 _SLACK = 5e-4
-
-
-class LimitCause(Enum):
-    """Why a withdrawal is smaller than its touch requires."""
-
-    JOINT_LIMITS = "the joints that would move away are at their limits"
-    OWN_BODY = "the arm would press against the robot itself"
-    NO_DIRECTION = "no joint moves the touched place away"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,8 +81,8 @@ class PoseDirections:
         direction, limited = self._direction(pose, touched, arm)
         length = float(np.linalg.norm(direction))
         if length == 0.0:
-            cause = LimitCause.JOINT_LIMITS if limited else LimitCause.NO_DIRECTION
-            return Plan(pose, np.zeros(len(contacts)), cause)
+            nothing = LimitCause.JOINT_LIMITS if limited else LimitCause.NO_DIRECTION
+            return Plan(pose, np.zeros(len(contacts)), nothing)
         path = self._integrate(pose, touched, arm, direction)
         goal = self._best_free_goal(pose, touched, (path, arm.within(pose + direction, pose)))
         shortened = np.linalg.norm(goal - pose) < _SHORT * np.linalg.norm(path - pose)
@@ -101,6 +92,20 @@ class PoseDirections:
             detours = self._single_joint_goals(pose, touched, arm, length)
             goal = self._best_free_goal(pose, touched, (goal, *detours))
         return Plan(goal, self._progress(goal, touched), cause)
+
+    def free_part(self, pose: Floats, goal: Floats) -> Floats:
+        """`goal` (n,), or the part of the straight way to it that keeps the margin."""
+        reached = pose
+        floor = self._floor(pose)
+        for angles in _way(pose, goal):
+            if self.body.clearance(angles, self.margin) < floor:
+                return reached
+            reached = angles
+        return goal
+
+    def _floor(self, pose: Floats) -> float:
+        """The distance to keep: the margin, or that of `pose` if it is closer already."""
+        return min(self.margin, self.body.clearance(pose, self.margin)) - _SLACK
 
     def _touched(self, pose: Floats, contacts: Sequence[Contact]) -> _Touched:
         frames = [self.body.frame(contact.limb, pose) for contact in contacts]
@@ -172,19 +177,20 @@ class PoseDirections:
     def _best_free_goal(self, pose: Floats, touched: _Touched, goals: Sequence[Floats]) -> Floats:
         """The goal, shortened to what is free, that moves furthest away from the touches."""
         best, furthest = pose, 0.0
-        floor = min(self.margin, self.body.clearance(pose, self.margin)) - _SLACK
+        floor = self._floor(pose)
         for goal in goals:
-            free = self._free_part(pose, goal, touched, floor)
+            free = self._withdrawing_part(pose, goal, touched, floor)
             away = float(self._progress(free, touched).sum())
             if away > furthest:
                 best, furthest = free, away
         return best
 
-    def _free_part(self, pose: Floats, goal: Floats, touched: _Touched, floor: float) -> Floats:
+    def _withdrawing_part(
+        self, pose: Floats, goal: Floats, touched: _Touched, floor: float
+    ) -> Floats:
         """The end of the part of the straight way to `goal` that is free."""
         reached, progress = pose, np.zeros(len(touched.contacts))
-        for share in np.linspace(0.0, 1.0, _SAMPLES + 1)[1:]:
-            angles = pose + share * (goal - pose)
+        for angles in _way(pose, goal):
             further = self._progress(angles, touched)
             if (further < progress - TOWARDS).any():
                 break
@@ -201,6 +207,13 @@ class PoseDirections:
             points.append(origin + axes @ contact.point)
         progress: Floats = np.sum((np.array(points) - touched.points) * touched.inward, axis=1)
         return progress
+
+
+def _way(pose: Floats, goal: Floats) -> Floats:
+    """Poses (k, n) on the straight way in joint space, `goal` included."""
+    shares = np.linspace(0.0, 1.0, _SAMPLES + 1)[1:, None]
+    way: Floats = pose + shares * (goal - pose)
+    return way
 
 
 def _away(gradients: Floats, lengths: Floats) -> Floats:

@@ -7,12 +7,21 @@ functions of data, without clock, state or robot.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from enum import Enum
 
 import numpy as np
 
 from robocomp_dsl.tactile.arrays import Bools, Floats
 from robocomp_dsl.tactile.reflex.law import Response, total_motion
+
+
+class LimitCause(Enum):
+    """Why a withdrawal is smaller than its touch requires."""
+
+    JOINT_LIMITS = "the joints that would move away are at their limits"
+    OWN_BODY = "the arm would press against the robot itself"
+    NO_DIRECTION = "no joint moves the touched place away"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,13 +69,16 @@ class ArmProperties:
 class Withdrawal:
     """A withdrawal from `origin` (n,), the pose at `began` [s], to `goal` (n,).
 
-    `strongest` holds the strongest response so far of each field, by its name.
+    `strongest` holds the strongest response so far of each field, by its name; `felt_at` the pose
+    (n,) at its first response. `limit` says what made the latest goal smaller.
     """
 
     began: float
     origin: Floats
     goal: Floats
     strongest: Mapping[str, Response]
+    felt_at: Mapping[str, Floats] = field(default_factory=dict)
+    limit: LimitCause | None = None
 
 
 def initial(pose: Floats, now: float) -> Withdrawal:
