@@ -5,8 +5,7 @@ tactile description for `--tactile`; the robot alone beside its description in `
 under the name that the description has in `model`. A world has a floor, the robot with its root
 fixed above it, its control boards as tuples, its speed limits as numbers, and two fingers that can
 touch it: balls on three prismatic joints with at most 20 N, whose joint positions are world
-coordinates in m. The
-initial state is the key frame `start`.
+coordinates in m. The initial state is the key frame `start`.
 """
 
 from __future__ import annotations
