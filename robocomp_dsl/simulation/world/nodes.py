@@ -75,8 +75,8 @@ def place(simulation: ChangeableWorld, base: str, item: str, pose: Sequence[floa
         )
         return
     in_parent = between(simulation.state, frame.parent, base) @ matrix_of(pose)
-    parent = pose_of(in_parent)
-    x, y, z, rx, ry, rz = parent
+    # as it is written, if it is relative to the parent: a joint may turn by more than 180 degrees
+    x, y, z, rx, ry, rz = pose if base == frame.parent else pose_of(in_parent)
     changed = replace(frame, place=(x, y, z), turn=(rx, ry, rz))
     if frame.motion:
         _place_joint(simulation, changed)
