@@ -20,9 +20,8 @@ def loads(frames: Iterable[Frame]) -> frozenset[str]:
     known = {frame.id: frame for frame in frames}
     fixed: set[str] = set()
     for frame in known.values():
-        if falls(frame, known):
-            fixed.add(frame.id)
-        elif frame.parent in fixed and frame.motion is None and not frame.drives:
+        is_fixed = frame.motion is None and not frame.drives
+        if falls(frame, known) or (is_fixed and frame.parent in fixed):
             fixed.add(frame.id)
     return frozenset(fixed)
 

@@ -20,7 +20,10 @@ WORLD = """\
 <innerModel>
   <transform id="world">
     <differentialrobot id="robot"><imu id="robot_imu"/></differentialrobot>
-    <transform id="gimbal" tx="3000"><imu id="gimbal_imu"/><transform id="tool" ty="50"/></transform>
+    <transform id="gimbal" tx="3000">
+      <imu id="gimbal_imu"/>
+      <transform id="tool" ty="50"/>
+    </transform>
     <joint id="disc" axis="y" tx="6000" min="-10" max="10"/>
   </transform>
 </innerModel>
@@ -85,7 +88,8 @@ def test_robot_that_drives_full_circle_reads_one_angle(world: Served) -> None:
         assert ry == pytest.approx(base.correctedAlpha, abs=1e-6)
         read.append(ry)
     steps = np.diff(np.unwrap(read))
-    assert (steps >= 0).all() and steps.max() < 0.06
+    assert (steps >= 0).all()
+    assert steps.max() < 0.06
     assert (min(read), max(read)) == pytest.approx((-math.pi, math.pi), abs=0.06)
 
 

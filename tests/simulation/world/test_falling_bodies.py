@@ -18,7 +18,9 @@ G = 9810.0  # mm/s²
 WORLD = """\
 <innerModel>
   <transform id="world">
-    <transform id="floor"><plane id="ground" ny="1" size="20000,20000,100" py="-50" collide="1"/></transform>
+    <transform id="floor">
+      <plane id="ground" ny="1" size="20000,20000,100" py="-50" collide="1"/>
+    </transform>
     <transform id="room" tx="1000" ty="500" ry="1.5707963267948966">
       <transform id="shelf" ty="1000" rz="0.5">
         <transform id="ball" engine="bullet" mass="2" tx="100">
@@ -149,8 +151,10 @@ def test_light_body_with_parts_falls_with_whole_gravity(tmp_path: Path) -> None:
 
 
 def test_two_bodies_in_one_another_fall_together(tmp_path: Path) -> None:
-    text = """<innerModel><transform id="world"><transform id="box" engine="bullet" mass="1" ty="3000">
-      <transform id="content" engine="bullet" mass="1" tx="50"/></transform></transform></innerModel>"""
+    text = """<innerModel><transform id="world">
+      <transform id="box" engine="bullet" mass="1" ty="3000">
+        <transform id="content" engine="bullet" mass="1" tx="50"/>
+      </transform></transform></innerModel>"""
     world = served(tmp_path, text)
     world.simulation.advance(0.3)
     assert position(world, "box")[1] == pytest.approx(3000 - G * 0.3**2 / 2, rel=0.01)
@@ -209,6 +213,7 @@ def test_falls_needs_fixed_frames_above() -> None:
 
 
 def test_build_spec_notes_falling_body_without_mass(tmp_path: Path) -> None:
-    text = """<innerModel><transform id="world"><transform id="ball" engine="bullet"/></transform></innerModel>"""
+    text = """<innerModel><transform id="world">
+      <transform id="ball" engine="bullet"/></transform></innerModel>"""
     _, notes = build_spec(scene_of(tmp_path / "world.xml", text))
     assert notes == ["`ball` falls and has no mass: it gets 0.001 kg"]
