@@ -195,6 +195,14 @@ SINGLE: Mapping[str, Callable[[DeviceContext, Device], Any]] = {
 """Kinds of devices that are simulated one by one."""
 
 
+def place_cameras(scene: Scene, spec: Any) -> None:
+    """Add the cameras of a scene to its specification, for a viewer: they take no pictures."""
+    site = DeviceContext({frame.id: frame for frame in scene.frames}, NoiseLevel())
+    for device in scene.devices:
+        if device.kind in {"camera", "rgbd"}:
+            _camera(site, device).place(spec)
+
+
 def build_devices(
     scene: Scene, noise: NoiseLevel, existing: Mapping[str, Any] = MappingProxyType({})
 ) -> dict[str, Any]:
