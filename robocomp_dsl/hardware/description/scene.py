@@ -144,7 +144,7 @@ class Scene:
         """The scene in `data`, as `generate.scene` produces it; `folder` holds the model file."""
         model = data.get("model")
         return cls(
-            tuple(_frame(entry) for entry in data["frames"]),
+            tuple(frame_of_data(entry) for entry in data["frames"]),
             tuple(Box(**_tuples(entry)) for entry in data["boxes"]),
             tuple(Mesh(**_tuples(entry)) for entry in data["meshes"]),
             tuple(Device(**entry) for entry in data["devices"]),
@@ -153,7 +153,8 @@ class Scene:
         )
 
 
-def _frame(entry: Mapping[str, Any]) -> Frame:
+def frame_of_data(entry: Mapping[str, Any]) -> Frame:
+    """The frame in `entry`, as `generate.scene` produces it."""
     motion = entry.get("motion")
     return Frame(**_tuples(entry) | {"motion": Motion(**motion) if motion else None})
 
