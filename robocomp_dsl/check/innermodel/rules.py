@@ -32,14 +32,19 @@ from robocomp_dsl.source import Span
 
 
 def check_innermodel_rules(model: InnerModel, report: Report) -> None:
-    """Check the rules of `body`."""
-    for node, parent in model.nodes():
-        for message in _violations(node, parent):
-            report.add(codes.INNERMODEL_RULE, _place(node), message)
+    """Check the rules of `model`."""
+    check_nodes(model, report)
     if any(isinstance(node, Patch) for node, _ in model.nodes()):
         from robocomp_dsl.check.innermodel.skins import check_skins  # noqa: PLC0415 - numpy
 
         check_skins(model, report)
+
+
+def check_nodes(model: InnerModel, report: Report) -> None:
+    """Check the attributes of all nodes; files that they name are not read."""
+    for node, parent in model.nodes():
+        for message in violations(node, parent):
+            report.add(codes.INNERMODEL_RULE, _place(node), message)
 
 
 def _place(node: Node) -> Span:
@@ -47,7 +52,8 @@ def _place(node: Node) -> Span:
     return source.span(start, start + 1 + len(node.tag))
 
 
-def _violations(node: Node, parent: Node | None) -> list[str]:
+def violations(node: Node, parent: Node | None) -> list[str]:
+    """What is inconsistent in the attributes of a node, one message each."""
     match node:
         case Skin():
             return _skin(node, parent)
