@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, TypeVar
 from robocomp_dsl.innermodel.cameras import CameraGeometry
 from robocomp_dsl.innermodel.new_nodes import NewNodes
 from robocomp_dsl.innermodel.node_tree import NodeTree
-from robocomp_dsl.innermodel.read import Document, parse_document, read_document
+from robocomp_dsl.innermodel.read import InnerModelFile, parse_text, read_file
 from robocomp_dsl.innermodel.shared_state import NodeOrId, id_of, locked
 from robocomp_dsl.innermodel.write import render, write_file
 from robocomp_dsl.model import innermodel
@@ -35,7 +35,7 @@ class InnerModel(NewNodes, CameraGeometry):
     `warnings` are the findings of the file that are no errors.
     """
 
-    _document: Document
+    _file: InnerModelFile
 
     def __init__(self, xmlFilePath: str | Path | InnerModel | None = None) -> None:
         """Load a file with all files that it includes, copy a model, or begin with the root only.
@@ -45,28 +45,28 @@ class InnerModel(NewNodes, CameraGeometry):
         self.lock = threading.RLock()
         if isinstance(xmlFilePath, InnerModel):
             with xmlFilePath.lock:
-                self._document, self._tree = xmlFilePath._document, xmlFilePath._tree.copy()
+                self._file, self._tree = xmlFilePath._file, xmlFilePath._tree.copy()
         elif xmlFilePath is None:
-            self._start(parse_document(_EMPTY, Path("innermodel.xml")))
+            self._start(parse_text(_EMPTY, Path("innermodel.xml")))
         else:
-            self._start(read_document(Path(xmlFilePath)))
+            self._start(read_file(Path(xmlFilePath)))
 
     @classmethod
     def fromString(cls, text: str, folder: str | Path = ".") -> InnerModel:
         """The model in `text`; includes are relative to `folder`. Raises `InnerModelError`."""
         model = cls.__new__(cls)
         model.lock = threading.RLock()
-        model._start(parse_document(text, Path(folder, "innermodel.xml")))
+        model._start(parse_text(text, Path(folder, "innermodel.xml")))
         return model
 
-    def _start(self, document: Document) -> None:
-        self._document = document
-        self._tree = NodeTree(document.model)
+    def _start(self, file: InnerModelFile) -> None:
+        self._file = file
+        self._tree = NodeTree(file.model)
 
     @property
     def warnings(self) -> tuple[Finding, ...]:
         """The findings of the file that are no errors."""
-        return self._document.warnings
+        return self._file.warnings
 
     # -- copies and files ---------------------------------------------------------------------
 
@@ -88,13 +88,13 @@ class InnerModel(NewNodes, CameraGeometry):
         `path` is written. Relative names of files stay as they are. Returns True. Raises
         `InnerModelError` if the file cannot be written; then an existing file is unchanged.
         """
-        write_file(Path(path), self.toString(), self._document.encoding)
+        write_file(Path(path), self.toString(), self._file.encoding)
         return True
 
     @locked
     def toString(self) -> str:
         """The text that `save` writes."""
-        return render(self._tree, self._document.model, self._document.source)
+        return render(self._tree, self._file.model, self._file.source)
 
     # -- nodes --------------------------------------------------------------------------------
 
@@ -205,4 +205,4 @@ class InnerModel(NewNodes, CameraGeometry):
         return "\n".join(lines)
 
     def __repr__(self) -> str:
-        return f"InnerModel({str(self._document.source.path)!r}, {len(self)} nodes)"
+        return f"InnerModel({str(self._file.source.path)!r}, {len(self)} nodes)"

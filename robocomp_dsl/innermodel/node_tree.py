@@ -121,6 +121,8 @@ class NodeTree:
             raise InnerModelError(f"`{parent}` is part of `{id}` and cannot hold it")
         if isinstance(entry.node, innermodel.Motor):
             raise InnerModelError(f"`{id}` is the motor of `{entry.parent}` and stays there")
+        if parent == entry.parent:
+            return
         below = max(map(self._depth, self.subtree(id))) - self._depth(id)
         self._require_depth(self._depth(parent) + 1 + below)
         if self.frames[id] == id:

@@ -26,7 +26,7 @@ from robocomp_dsl.source import (
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Document:
+class InnerModelFile:
     """A model, the text and encoding of its main file, and the warnings about it."""
 
     model: innermodel.InnerModel
@@ -35,17 +35,17 @@ class Document:
     warnings: tuple[Finding, ...] = ()
 
 
-def read_document(path: Path) -> Document:
+def read_file(path: Path) -> InnerModelFile:
     """The InnerModel file at `path` with all included files. Raises `InnerModelError`."""
     try:
         text, encoding = decode_with_encoding(read_source_bytes(path))
     except UnreadableSource as error:
         finding = Finding(Location(SourceText(str(path))), f"cannot read `{path}`: {error}")
         raise InnerModelError(finding.message, (finding,)) from None
-    return parse_document(text, path, encoding)
+    return parse_text(text, path, encoding)
 
 
-def parse_document(text: str, path: Path, encoding: str = "utf-8") -> Document:
+def parse_text(text: str, path: Path, encoding: str = "utf-8") -> InnerModelFile:
     """The InnerModel in `text`; includes are relative to `path`. Raises `InnerModelError`."""
     files, report = SourceCache(), Report()
     source = files.set_overlay(path, text)
@@ -56,7 +56,7 @@ def parse_document(text: str, path: Path, encoding: str = "utf-8") -> Document:
     if errors:
         shown = "\n".join(finding.render(f"error[{finding.kind}]") for finding in errors)
         raise InnerModelError(shown, errors)
-    return Document(model, source, encoding, tuple(finding for _, finding in findings))
+    return InnerModelFile(model, source, encoding, tuple(finding for _, finding in findings))
 
 
 def _finding(diagnostic: Diagnostic) -> Finding:

@@ -112,13 +112,15 @@ class PoseUpdates(SharedState):
     @locked
     def getJoint(self, id: str) -> InnerModelJoint:
         """The handle of a joint: `getAngle`, `setAngle`, `unitaryAxis`."""
-        return InnerModelJoint(self, self._tree.node_of(id, innermodel.Joint, "a joint"))
+        joint = self._tree.node_of(id, innermodel.Joint, "a joint")
+        return InnerModelJoint(joint, self._joint_value, self.updateJointValue)
 
     @locked
     def getPrismaticJoint(self, id: str) -> InnerModelPrismaticJoint:
         """The handle of a slide: `getPosition`, `setPosition`, `unitaryAxis`."""
         joint = self._tree.node_of(id, innermodel.PrismaticJoint, "a prismatic joint")
-        return InnerModelPrismaticJoint(self, joint)
+        write = self.updatePrismaticJointPosition
+        return InnerModelPrismaticJoint(joint, self._joint_value, write)
 
     def update(self) -> None:
         """Does nothing: changes take effect at once. For code written for RoboComp."""
