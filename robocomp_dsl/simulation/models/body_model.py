@@ -13,6 +13,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.simulation.models.model_file import load_model
 from robocomp_dsl.tactile.arm.limb_kinematics import ClosePoint
 from robocomp_dsl.tactile.arrays import Floats, Ints
@@ -51,7 +52,9 @@ class BodyModel:
     @classmethod
     def load(cls, robot: RobotDescription, part: str, packages: Sequence[Path] = ()) -> BodyModel:
         """The model file of the description. Raises `ModelFileError`, `OSError`, `KeyError`."""
-        return cls(robot, part, load_model(robot.file.parent / robot.model, packages).model)
+        if robot.model_file is None:
+            raise ModelFileError("the description names no `model`")
+        return cls(robot, part, load_model(robot.model_file, packages).model)
 
     def set_pose(self, angles: Floats) -> None:
         """Set generic angles (n,); later calls refer to `data`."""
@@ -160,9 +163,9 @@ class BodyModel:
     def _connected(self, first: int, second: int) -> bool:
         """Whether the bodies are one, or a joint connects them."""
         model = self.model
-        one, two = model.body_weldid[first], model.body_weldid[second]
-        above = [model.body_weldid[model.body_parentid[weld]] for weld in (one, two)]
-        return bool(one == two or one == above[1] or two == above[0])
+        welds = [int(model.body_weldid[body]) for body in (first, second)]
+        above = [int(model.body_weldid[model.body_parentid[weld]]) for weld in welds]
+        return welds[0] in {welds[1], above[1]} or welds[1] == above[0]
 
     def _any_arm_body(self) -> int:
         return int(self.model.jnt_bodyid[self.model.joint(self._joint_names()[0]).id])

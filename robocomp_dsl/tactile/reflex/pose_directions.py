@@ -49,7 +49,7 @@ class Contact:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Plan:
+class PlannedMotion:
     """A motion to `goal` (n,) [rad]; `progress` (m,) [m] is how far each contact moves away."""
 
     goal: Floats
@@ -73,16 +73,16 @@ class PoseDirections:
     body: LimbKinematics
     margin: float = 0.01
 
-    def plan(self, pose: Floats, contacts: Sequence[Contact], arm: ArmProperties) -> Plan:
+    def plan(self, pose: Floats, contacts: Sequence[Contact], arm: ArmProperties) -> PlannedMotion:
         """The motion from `pose` (n,) that withdraws from all `contacts`."""
         if not contacts:
-            return Plan(pose, np.zeros(0))
+            return PlannedMotion(pose, np.zeros(0))
         touched = self._touched(pose, contacts)
         direction, limited = self._direction(pose, touched, arm)
         length = float(np.linalg.norm(direction))
         if length == 0.0:
             nothing = LimitCause.JOINT_LIMITS if limited else LimitCause.NO_DIRECTION
-            return Plan(pose, np.zeros(len(contacts)), nothing)
+            return PlannedMotion(pose, np.zeros(len(contacts)), nothing)
         path = self._integrate(pose, touched, arm, direction)
         goal = self._best_free_goal(pose, touched, (path, arm.within(pose + direction, pose)))
         shortened = np.linalg.norm(goal - pose) < _SHORT * np.linalg.norm(path - pose)
@@ -91,7 +91,7 @@ class PoseDirections:
             cause = LimitCause.OWN_BODY
             detours = self._single_joint_goals(pose, touched, arm, length)
             goal = self._best_free_goal(pose, touched, (goal, *detours))
-        return Plan(goal, self._progress(goal, touched), cause)
+        return PlannedMotion(goal, self._progress(goal, touched), cause)
 
     def free_part(self, pose: Floats, goal: Floats) -> Floats:
         """`goal` (n,), or the part of the straight way to it that keeps the margin."""

@@ -15,6 +15,8 @@ import numpy as np
 from robocomp_dsl.tactile.arrays import Bools, Floats
 from robocomp_dsl.tactile.reflex.law import Response, total_motion
 
+_SHORTEST = 1e-9
+
 
 class LimitCause(Enum):
     """Why a withdrawal is smaller than its touch requires."""
@@ -115,6 +117,17 @@ def new_responses(before: Withdrawal, after: Withdrawal) -> list[Response]:
 def max_joint_distance(pose: Floats, other: Floats) -> float:
     """The largest distance of a joint between two poses (n,) [rad]."""
     return float(np.abs(pose - other).max(initial=0.0))
+
+
+def synchronised(pose: Floats, goal: Floats, speed: Floats) -> Floats:
+    """Speeds (n,) [rad/s] with which all joints arrive together, none faster than `speed` (n,).
+
+    The arm then moves on the straight way in joint space. Joints without motion have `speed`.
+    """
+    distance, seconds = np.abs(goal - pose), duration(pose, goal, speed)
+    moves = (distance > 0.0) & (seconds > 0.0)
+    together: Floats = np.where(moves, distance / max(seconds, _SHORTEST), speed)
+    return together
 
 
 def duration(pose: Floats, goal: Floats, speed: Floats) -> float:

@@ -39,6 +39,9 @@ class WithdrawalLaw(Protocol):
     ) -> Withdrawal:
         """The withdrawal with further responses; `limit` says what made it smaller."""
 
+    def motion(self, response: Response, withdrawal: Withdrawal, pose: Floats) -> Floats:
+        """The displacements (n,) [rad] that a response at `pose` (n,) caused."""
+
 
 @dataclass(frozen=True, slots=True)
 class PoseLaw:
@@ -68,6 +71,11 @@ class PoseLaw:
         ]
         plan = self.directions.plan(pose, contacts, arm)
         return replace(after, goal=plan.goal, felt_at=origins, limit=plan.limit)
+
+    def motion(self, _response: Response, withdrawal: Withdrawal, pose: Floats) -> Floats:
+        """The displacements (n,) [rad] from `pose` (n,), by all touches together."""
+        moved: Floats = withdrawal.goal - pose
+        return moved
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +114,10 @@ class FixedLaw:
         if free is not after.goal:
             after = replace(after, goal=free, limit=LimitCause.OWN_BODY)
         return after
+
+    def motion(self, response: Response, _withdrawal: Withdrawal, _pose: Floats) -> Floats:
+        """The displacements (n,) [rad] of equation 6."""
+        return response.motion
 
 
 def _contact(response: Response, moved: float = 0.0) -> Contact | None:
