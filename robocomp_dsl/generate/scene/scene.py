@@ -74,24 +74,44 @@ _DEVICES = (
 def _frame(node: innermodel.Transform | innermodel.PrismaticJoint, parent: innermodel.Node) -> Data:
     frame: Data = {"id": node.id, "parent": parent.id}
     if isinstance(node, innermodel.PrismaticJoint):
+        start, home = _slide_start(node)
         place = [0.0, 0.0, 0.0]
-        place["xyz".index(node.axis)] = node.position + node.offset
-        return frame | {"place": place, "motion": _motion(node, "slide", node.offset)}
+        place["xyz".index(node.axis)] = start + node.offset
+        return frame | {"place": place, "motion": _motion(node, "slide", home, node.offset)}
     frame["place"] = [node.tx, node.ty, node.tz]
-    frame["turn"] = [node.rx, node.ry, node.rz]
+    frame["turn"] = turn = [node.rx, node.ry, node.rz]
     if isinstance(node, innermodel.Joint):
-        frame["motion"] = _motion(node, "hinge", 0.0)
+        at = "xyz".index(node.axis)
+        if node.home is not None:
+            turn[at] = _within(node, node.home)
+        frame["motion"] = _motion(node, "hinge", _within(node, turn[at]))
     if node.mass > 0:
         frame["mass"] = node.mass
     return frame | {"drives": isinstance(node, innermodel.Base), "physics": node.engine == "bullet"}
 
 
-def _motion(node: innermodel.Joint | innermodel.PrismaticJoint, kind: str, offset: float) -> Data:
-    motion: Data = {"kind": kind, "axis": node.axis, "home": node.home, "offset": offset}
+def _slide_start(node: innermodel.PrismaticJoint) -> tuple[float, float]:
+    """The initial position and the home of a slide; each is the default of the other."""
+    position, home = node.position, node.home
+    if home is None:
+        home = position or 0.0
+    return _within(node, home) if position is None else position, _within(node, home)
+
+
+def _within(node: innermodel.Joint | innermodel.PrismaticJoint, value: float) -> float:
+    """The value within the limits of the joint, if these contain anything."""
+    return min(max(value, node.min), node.max) if node.min <= node.max else value
+
+
+def _motion(
+    node: innermodel.Joint | innermodel.PrismaticJoint, kind: str, home: float, offset: float = 0.0
+) -> Data:
+    motion: Data = {"kind": kind, "axis": node.axis, "home": home, "offset": offset}
     limits: Data = {"low": node.min, "high": node.max}
     for child in node.children:
         if isinstance(child, innermodel.Motor):
-            limits |= {"force": child.force, "gear": child.gear, "velocity": child.velocity}
+            motor = {"force": child.force, "gear": child.gear, "velocity": child.velocity}
+            limits |= {name: value for name, value in motor.items() if value > 0}
     return motion | {name: value for name, value in limits.items() if math.isfinite(value)}
 
 
@@ -153,12 +173,12 @@ def _axes_boxes(node: innermodel.Axes, parent: innermodel.Node, taken: set[str])
 
 
 def _device(node: innermodel.Node, parent: innermodel.Node) -> Data:
-    """A device; its settings are the node's attributes without infinite values."""
+    """A device; its settings are the node's attributes without absent and infinite values."""
     settings = {
         field.name: value
         for field in fields(node)
         if field.name not in _NOT_SETTINGS
-        and not isinstance(value := getattr(node, field.name), tuple)
+        and not isinstance(value := getattr(node, field.name), tuple | None)
         and not (isinstance(value, float) and math.isinf(value))
     }
     frame = node.id if innermodel.is_frame(node) else parent.id

@@ -111,7 +111,7 @@ class InnerModelServant(Servant):
             raise NodeError(NodeErrorCode.VALUES, "a limit is no number")
         require_finite(mass=j.mass)
         place, turn = _pose(j.pose)
-        motion = Motion("hinge", axis, j.min, j.max)
+        motion = Motion("hinge", axis, j.min, j.max, home=turn["xyz".index(axis)])
         frame = Frame(item, base, place, turn, motion, mass=max(j.mass, 0.0))
         return self._rebuild(add_frame(self._scene, frame))
 
