@@ -248,7 +248,7 @@ def test_check_innermodel_warns_of_home_outside_limits(
 ) -> None:
     """As in RoboComp, the joint starts at the nearest limit."""
     found, report = checked(tmp_path, joint)
-    message = f"`home` ({home}) is outside `min` … `max`: `j` starts at {start:g}"
+    message = f"`home` ({home}) is outside `min` … `max`: that of `j` is {start:g}"
     assert [(d.code.id, d.message) for d in report] == [("RC785", message)]
     frame = lower_body(found)["frames"][1]
     assert (frame["turn"] if "turn" in frame else frame["place"])[0] == start

@@ -34,10 +34,9 @@ from robocomp_dsl.source import Span
 
 
 def check_innermodel_rules(model: InnerModel, report: Report) -> None:
-    """Check the rules of `body`."""
-    for node, parent in model.nodes():
-        for message in _violations(node, parent):
-            report.add(codes.INNERMODEL_RULE, _place(node), message)
+    """Check the rules of `model`."""
+    check_nodes(model, report)
+    for node, _ in model.nodes():
         if isinstance(node, TouchSensor) and not feels(node):
             _report_touch(node, report)
         if isinstance(node, Joint | PrismaticJoint):
@@ -50,13 +49,20 @@ def check_innermodel_rules(model: InnerModel, report: Report) -> None:
 
 def _report_touch(node: TouchSensor, report: Report) -> None:
     shape = next(shapes_in(node), None)
-    wanted = (
+    remedy = (
         f'set `collide="1"` on `{shape.id}`'
         if shape
         else 'put a `<plane>` or a `<mesh>` with `collide="1"` into it'
     )
     message = f"`{node.id}` would never feel anything: no shape in it collides"
-    report.add(codes.INNERMODEL_TOUCH, _place(node), message, help=wanted)
+    report.add(codes.INNERMODEL_TOUCH, _place(node), message, help=remedy)
+
+
+def check_nodes(model: InnerModel, report: Report) -> None:
+    """Check the attributes of all nodes; files that they name are not read."""
+    for node, parent in model.nodes():
+        for message in violations(node, parent):
+            report.add(codes.INNERMODEL_RULE, _place(node), message)
 
 
 def _check_home(joint: Joint | PrismaticJoint, report: Report) -> None:
@@ -64,7 +70,7 @@ def _check_home(joint: Joint | PrismaticJoint, report: Report) -> None:
     if home is None or low > high or low <= home <= high:
         return
     near = low if home < low else high
-    message = f"`home` ({home:g}) is outside `min` … `max`: `{joint.id}` starts at {near:g}"
+    message = f"`home` ({home:g}) is outside `min` … `max`: that of `{joint.id}` is {near:g}"
     report.add(codes.INNERMODEL_HOME, _place(joint), message)
 
 
@@ -73,7 +79,8 @@ def _place(node: Node) -> Span:
     return source.span(start, start + 1 + len(node.tag))
 
 
-def _violations(node: Node, parent: Node | None) -> list[str]:
+def violations(node: Node, parent: Node | None) -> list[str]:
+    """What is inconsistent in the attributes of a node, one message each."""
     match node:
         case Skin():
             return _skin(node, parent)

@@ -10,6 +10,7 @@ import math
 from dataclasses import fields
 from typing import Any
 
+from robocomp_dsl.generate.scene.frames import lower_frame
 from robocomp_dsl.generate.scene.skin import lower_skin
 from robocomp_dsl.model import innermodel
 from robocomp_dsl.model.touch_shapes import feels
@@ -34,7 +35,7 @@ def lower_body(source: innermodel.InnerModel) -> Data:
 def _lower(node: innermodel.Node, parent: innermodel.Node, data: Data, taken: set[str]) -> None:
     match node:
         case innermodel.Transform() | innermodel.PrismaticJoint():
-            data["frames"].append(_frame(node, parent))
+            data["frames"].append(lower_frame(node, parent))
         case innermodel.TouchSensor():
             data["frames"].append({"id": node.id, "parent": parent.id})
             if not feels(node):
@@ -69,50 +70,6 @@ _DEVICES = (
     innermodel.Battery,
     innermodel.PointCloud,
 )
-
-
-def _frame(node: innermodel.Transform | innermodel.PrismaticJoint, parent: innermodel.Node) -> Data:
-    frame: Data = {"id": node.id, "parent": parent.id}
-    if isinstance(node, innermodel.PrismaticJoint):
-        start, home = _slide_start(node)
-        place = [0.0, 0.0, 0.0]
-        place["xyz".index(node.axis)] = start + node.offset
-        return frame | {"place": place, "motion": _motion(node, "slide", home, node.offset)}
-    frame["place"] = [node.tx, node.ty, node.tz]
-    frame["turn"] = turn = [node.rx, node.ry, node.rz]
-    if isinstance(node, innermodel.Joint):
-        at = "xyz".index(node.axis)
-        if node.home is not None:
-            turn[at] = _within(node, node.home)
-        frame["motion"] = _motion(node, "hinge", _within(node, turn[at]))
-    if node.mass > 0:
-        frame["mass"] = node.mass
-    return frame | {"drives": isinstance(node, innermodel.Base), "physics": node.engine == "bullet"}
-
-
-def _slide_start(node: innermodel.PrismaticJoint) -> tuple[float, float]:
-    """The initial position and the home of a slide; each is the default of the other."""
-    position, home = node.position, node.home
-    if home is None:
-        home = position or 0.0
-    return _within(node, home) if position is None else position, _within(node, home)
-
-
-def _within(node: innermodel.Joint | innermodel.PrismaticJoint, value: float) -> float:
-    """The value within the limits of the joint, if these contain anything."""
-    return min(max(value, node.min), node.max) if node.min <= node.max else value
-
-
-def _motion(
-    node: innermodel.Joint | innermodel.PrismaticJoint, kind: str, home: float, offset: float = 0.0
-) -> Data:
-    motion: Data = {"kind": kind, "axis": node.axis, "home": home, "offset": offset}
-    limits: Data = {"low": node.min, "high": node.max}
-    for child in node.children:
-        if isinstance(child, innermodel.Motor):
-            motor = {"force": child.force, "gear": child.gear, "velocity": child.velocity}
-            limits |= {name: value for name, value in motor.items() if value > 0}
-    return motion | {name: value for name, value in limits.items() if math.isfinite(value)}
 
 
 def _box(node: innermodel.Plane, parent: innermodel.Node) -> Data:
