@@ -97,6 +97,9 @@ class InnerModelServant(Servant):
 
     def addTransform(self, item: str, engine: str, base: str, pose: Any) -> bool:
         """Add a frame; with the engine `bullet` it falls, unless a frame above it moves."""
+        if engine not in {"", "static", "bullet"}:
+            message = f"there is no engine `{engine}`: static or bullet"
+            raise NodeError(NodeErrorCode.ENGINE, message)
         physics = engine == "bullet"
         place, turn = _pose(pose)
         frame = Frame(item, base, place, turn, physics=physics, mass=_FALLING if physics else 0.0)
