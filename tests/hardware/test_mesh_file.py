@@ -1,10 +1,24 @@
+import math
+import shutil
 import struct
+import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from robocomp_dsl.hardware.formats.mesh_file import MeshError, read_mesh
+from robocomp_dsl.hardware.formats import osgconv
+from robocomp_dsl.hardware.formats.mesh_file import read_mesh, read_surface
+from robocomp_dsl.hardware.formats.surface import MeshError, Surface
+from tests.hardware.mesh_files import (
+    TETRAHEDRA,
+    TRIANGLES,
+    chunk,
+    chunk_mesh,
+    geometry,
+    node,
+    three_ds,
+)
 
 OBJ = """\
 # a corner
@@ -40,14 +54,26 @@ Geode {
 """
 
 
-def chunk(kind: int, content: bytes) -> bytes:
-    return struct.pack("<HI", kind, 6 + len(content)) + content
+POINTS_ONLY = struct.pack("<H6f", 2, -1, -2, -3, 4, 5, 6)
+THREE_DS = three_ds({"Box": chunk(0x4100, chunk(0x4110, POINTS_ONLY))})
+PLY = """\
+ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+element face 1
+property list uchar int vertex_indices
+end_header
+0 0 0
+10 0 0
+0 20 0
+3 0 1 2
+"""
 
 
-POINTS = struct.pack("<H6f", 2, -1, -2, -3, 4, 5, 6)
-THREE_DS = chunk(
-    0x4D4D, chunk(0x3D3D, chunk(0x4000, b"Box\0" + chunk(0x4100, chunk(0x4110, POINTS))))
-)
+LOOP = "Group {\nUniqueID G\nUse G\n}"
 
 
 def binary_stl() -> bytes:
@@ -64,6 +90,9 @@ def binary_stl() -> bytes:
         ("b.stl", binary_stl(), (10, 20, 0), 1),
         ("a.osg", OSG.encode(), (4, 5, -6), 0),
         ("a.3ds", THREE_DS, (4, 5, -6), 0),
+        ("b.3ds", TETRAHEDRA["a.3ds"], (1, 2, -3), 4),
+        ("b.osg", TETRAHEDRA["a.osg"], (1, 2, -3), 4),
+        ("a.ply", PLY.encode(), (10, 20, 0), 1),
     ],
 )
 def test_mesh_file_has_points_and_faces(
@@ -82,7 +111,7 @@ def test_mesh_file_has_points_and_faces(
 @pytest.mark.parametrize(
     ("name", "content", "message"),
     [
-        ("a.ive", b"", "`.ive` files cannot be read; convert it to .obj or .stl"),
+        ("a.xyz", b"", "`.xyz` files cannot be read; convert it to .obj or .stl"),
         ("mesh", b"", "its suffix names no supported format"),
         ("gone.obj", None, "No such file"),
         ("a.obj", b"v 1 2\n", "the file is damaged"),
@@ -92,6 +121,19 @@ def test_mesh_file_has_points_and_faces(
         ("a.stl", b"\0" * 60, "the file has no points"),
         ("a.3ds", THREE_DS[:-8], "the file is damaged"),
         ("a.osg", b"VertexArray { 1 2 }", "the file is damaged"),
+        ("a.osg", b"Group {", "the file is damaged (its end is missing)"),
+        ("a.osg", b"Group { } }", "the file is damaged (its braces do not match)"),
+        ("a.osg", b"A {\n" * 300, "the file is damaged (it is nested too deep)"),
+        ("a.osg", LOOP.encode(), "the file is damaged (its nodes refer to each other)"),
+        ("a.osg", geometry("DrawArrays TRIANGLES 0 9").encode(), "a face names a point that is"),
+        ("a.osg", geometry("DrawArrays TRIANGLES 0 -9").encode(), "a primitive of -9 points"),
+        ("a.3ds", b"BM" + bytes(50), "it does not begin as a .3ds file"),
+        ("a.3ds", three_ds({"a": chunk_mesh()}, node("a", 1, parent=1)), "their own parents"),
+        ("a.3ds", three_ds({"a": chunk_mesh(np.zeros((4, 4)))}, node("a", 1)), "has no volume"),
+        ("a.ply", b"ply\nformat ascii 1.0\nend_header\n", "the file"),
+        ("a.ply", b"nothing", "the file is damaged"),
+        ("a.obj", b"version https://git-lfs.github.com/spec/v1\noid x", "run `git lfs pull`"),
+        ("a.ive", b"/annex/objects/SHA256E-s2--b.ive\n", "run `git annex get`"),
     ],
 )
 def test_mesh_file_with_faults_is_reported(
@@ -103,3 +145,175 @@ def test_mesh_file_with_faults_is_reported(
     with pytest.raises(MeshError) as error:
         read_mesh(path)
     assert message in str(error.value)
+
+
+def surface_of(path: Path, content: bytes | str) -> Surface:
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return read_surface(path)
+
+
+@pytest.mark.parametrize(
+    ("primitive", "triangles"),
+    [
+        ("DrawArrays TRIANGLES 0 3", {(0, 1, 2)}),
+        ("DrawArrays QUADS 0 4", {(0, 1, 2), (0, 2, 3)}),
+        ("DrawArrays TRIANGLE_STRIP 0 4", {(0, 1, 2), (2, 1, 3)}),
+        ("DrawArrays TRIANGLE_FAN 0 4", {(0, 1, 2), (0, 2, 3)}),
+        ("DrawArrays LINES 0 4", set()),
+        ("DrawArrayLengths POLYGON 0 1\n{\n4\n}", {(0, 1, 2), (0, 2, 3)}),
+        ("DrawElementsUInt QUAD_STRIP 4 { 0 1 2 3 }", {(0, 1, 2), (2, 1, 3)}),
+        ("DrawElementsUByte TRIANGLES 6 { 0 0 1 1 2 3 }", {(1, 2, 3)}),
+    ],
+)
+def test_mesh_file_osg_primitives_become_triangles(
+    tmp_path: Path, primitive: str, triangles: set[tuple[int, ...]]
+) -> None:
+    surface = surface_of(tmp_path / "a.osg", geometry(primitive))
+    assert {tuple(face) for face in surface.faces.tolist()} == triangles
+
+
+def test_mesh_file_osg_nodes_place_their_geometry(tmp_path: Path) -> None:
+    """Values of OpenSceneGraph 3.6.5 (`osgconv t.osg t.stl`)."""
+    matrix = "MatrixTransform {\nMatrix {\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 30 1\n}\n"
+    turned = """PositionAttitudeTransform {
+      position 100 0 0
+      attitude 0 0 0.7071067811865476 0.7071067811865476
+      scale 2 2 2
+      pivotPoint 1 0 0
+      Use Geode_1
+    }"""
+    box = "ShapeDrawable {\nBox {\nCenter 0 0 -50\nHalfLengths 1 2 3\n}\n}"
+    text = f"Group {{\n{matrix}{geometry(TRIANGLES)}}}\n{turned}\n{box}\n}}"
+    points = surface_of(tmp_path / "a.osg", text).points.round(6).tolist()
+    assert points[:4] == [[10, 20, 30], [10, 21, 30], [8, 20, 30], [10, 20, 33]]
+    assert points[4:8] == [[100, -2, 0], [100, 0, 0], [96, -2, 0], [100, -2, 6]]
+    assert np.min(points[8:], axis=0).tolist() == [-1, -2, -53]
+    assert np.max(points[8:], axis=0).tolist() == [1, 2, -47]
+
+
+OSGT = """#Ascii Scene
+osg::Group {
+  UniqueID 1
+  Children 2 {
+    osg::MatrixTransform {
+      UniqueID 2
+      Children 1 {
+        osg::Geometry {
+          UniqueID 3
+          PrimitiveSetList 2 {
+            osg::DrawArrays {
+              UniqueID 4
+              Mode TRIANGLES
+              Count 3
+            }
+            osg::DrawElementsUShort {
+              UniqueID 5
+              Mode TRIANGLES
+              vector 3 {
+                0 2 1
+              }
+            }
+          }
+          VertexArray TRUE {
+            osg::Vec3Array {
+              UniqueID 6
+              Binding BIND_PER_VERTEX
+              vector 3 {
+                0 0 0
+                1 0 0
+                0 2 0
+              }
+            }
+          }
+        }
+      }
+      Matrix {
+        1 0 0 0
+        0 1 0 0
+        0 0 1 0
+        0 0 5 1
+      }
+    }
+    osg::Geometry {
+      UniqueID 3
+    }
+  }
+}
+"""
+
+
+def test_mesh_file_osgt_nodes_are_shared(tmp_path: Path) -> None:
+    surface = surface_of(tmp_path / "a.osgt", OSGT)
+    assert surface.faces.tolist() == [[0, 1, 2], [0, 2, 1], [3, 4, 5], [3, 5, 4]]
+    assert surface.points[:, 2].tolist() == [5, 5, 5, 0, 0, 0]
+
+
+def test_mesh_file_3ds_nodes_place_their_object(tmp_path: Path) -> None:
+    """The pose in the parent, without the object's own frame; turned clockwise about its axis."""
+    frame = np.eye(4)
+    frame[:3, 3] = 0, 0, 3
+    place = node("a", 1, place=(10, 0, 0), turn=(math.pi / 2, 0, 0, 1), scale=(1, 1, 2))
+    child = node("b", 2, parent=1, place=(0, 0, 1), pivot=(0, 2, 0))
+    meshes = {"a": chunk_mesh(frame), "b": chunk_mesh(), "c": chunk_mesh()}
+    points = surface_of(tmp_path / "a.3ds", three_ds(meshes, place + child)).points.round(5)
+    assert points[:4].tolist() == [[10, 0, -6], [10, -1, -6], [12, 0, -6], [10, 0, 0]]
+    assert points[4:8].tolist() == [[8, 0, 2], [8, -1, 2], [10, 0, 2], [8, 0, 8]]
+    assert points[8:].max(axis=0).tolist() == [1, 2, 3]  # without a node: as stored
+
+
+def test_mesh_file_3ds_mirrored_object_is_turned_back(tmp_path: Path) -> None:
+    meshes = {"a": chunk_mesh(np.diag([-1.0, 1.0, 1.0, 1.0]))}
+    points = surface_of(tmp_path / "a.3ds", three_ds(meshes)).points
+    assert (points.min(), points[:, 0].min(), points[:, 1].max()) == (-1, -1, 2)
+
+
+CONVERTERS = {
+    "cp": ('#!/bin/sh\nprintf \'%s\' "$(cat "$1")" > "$2"\n', ""),
+    "silent": ("#!/bin/sh\nexit 3\n", "`osgconv` cannot convert it: exit code 3"),
+    "told": ("#!/bin/sh\necho\necho no plugin >&2\n", "cannot convert it: no plugin"),
+}
+
+
+@pytest.mark.parametrize("kind", CONVERTERS)
+def test_mesh_file_ive_is_converted_by_program(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
+) -> None:
+    script, message = CONVERTERS[kind]
+    program = tmp_path / "osgconv"
+    program.write_text(script)
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/bin:/usr/bin")
+    path = tmp_path / "a.IVE"
+    if not message:
+        assert surface_of(path, STL).faces.shape == (1, 3)
+        return
+    with pytest.raises(MeshError) as error:
+        surface_of(path, b"x")
+    assert message in str(error.value)
+
+
+def test_mesh_file_ive_names_missing_program(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(MeshError, match=r"`\.ive` files need OpenSceneGraph's `osgconv` \(Debian"):
+        surface_of(tmp_path / "a.ive", b"x")
+
+
+def test_mesh_file_is_read_again_after_change(tmp_path: Path) -> None:
+    assert len(surface_of(tmp_path / "a.obj", OBJ).points) == 4
+    assert len(surface_of(tmp_path / "a.obj", "v 1 2 3\n").points) == 1
+
+
+@pytest.mark.skipif(shutil.which(osgconv.PROGRAM) is None, reason="needs OpenSceneGraph")
+@pytest.mark.parametrize("suffix", ["ive", "3ds", "osgt", "osgb", "osg"])
+def test_mesh_file_agrees_with_openscenegraph(tmp_path: Path, suffix: str) -> None:
+    source, result = tmp_path / "a.osg", tmp_path / f"b.{suffix}"
+    matrix = "MatrixTransform {\nMatrix {\n0 2 0 0\n-2 0 0 0\n0 0 2 0\n1 2 3 1\n}\n"
+    source.write_text(f"{matrix}{geometry(TRIANGLES)}}}")
+    subprocess.run([osgconv.PROGRAM, source, result], check=True, capture_output=True)
+    expected, found = read_surface(source), read_surface(result)
+    assert found.faces.shape == expected.faces.shape
+    corners = (found.points.min(axis=0), found.points.max(axis=0))
+    assert corners[0] == pytest.approx(expected.points.min(axis=0), abs=1e-5)
+    assert corners[1] == pytest.approx(expected.points.max(axis=0), abs=1e-5)
