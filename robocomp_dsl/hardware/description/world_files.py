@@ -171,11 +171,11 @@ def missing_files(
 
 
 def exists(path: Path) -> bool:
-    """Whether a path names something; also if it cannot, which its reader reports."""
+    """Whether a path names something."""
     try:
         return path.exists()
-    except (OSError, ValueError):
-        return True
+    except (OSError, ValueError):  # a name that no file can have
+        return False
 
 
 def _named(nodes: Sequence[tuple[str, str]]) -> str:

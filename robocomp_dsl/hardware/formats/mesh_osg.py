@@ -14,7 +14,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from robocomp_dsl.hardware.formats.osg_text import Block, Line, parse_blocks
+from robocomp_dsl.hardware.formats.osg_text import Line, OsgBlock, parse_blocks
 from robocomp_dsl.hardware.formats.surface import (
     NO_FACES,
     Faces,
@@ -41,10 +41,10 @@ class _Reader:
     """`shared` has the blocks with an identifier, which later places refer to."""
 
     surfaces: list[Surface] = field(default_factory=list)
-    shared: dict[str, Block] = field(default_factory=dict)
+    shared: dict[str, OsgBlock] = field(default_factory=dict)
     count: int = 0
 
-    def collect(self, block: Block, above: Points, depth: int) -> None:
+    def collect(self, block: OsgBlock, above: Points, depth: int) -> None:
         """Add the geometries of a block; points are rows, so `above` is applied last."""
         if depth > _DEEPEST:
             raise ValueError("its nodes refer to each other")
@@ -55,12 +55,12 @@ class _Reader:
         elif (points := self._points(block)) is not None:
             self._add(checked_surface(points, _faces(block)), here)
         for item in block.items:
-            if isinstance(item, Block):
+            if isinstance(item, OsgBlock):
                 self.collect(item, here, depth + 1)
             elif item[0] == "Use" and item[1:] and item[1] in self.shared:
                 self.collect(self.shared[item[1]], here, depth + 1)
 
-    def _share(self, block: Block) -> Block:
+    def _share(self, block: OsgBlock) -> OsgBlock:
         """The block itself; for a bare reference in `.osgt` the block that it names."""
         name = _identifier(block)
         if not name:
@@ -69,13 +69,13 @@ class _Reader:
             self.shared[name] = block
         return self.shared[name]
 
-    def _points(self, block: Block) -> Points | None:
+    def _points(self, block: OsgBlock) -> Points | None:
         """The points of a geometry; None if the block is none."""
         for item in block.items:
-            head = item.head if isinstance(item, Block) else item
+            head = item.head if isinstance(item, OsgBlock) else item
             if head[:1] != ["VertexArray"] and head[:1] != ["VertexData"]:
                 continue
-            if not isinstance(item, Block):  # VertexArray Use Vec3Array_1
+            if not isinstance(item, OsgBlock):  # VertexArray Use Vec3Array_1
                 found = self.shared.get(item[2]) if item[1:2] == ["Use"] and item[2:] else None
                 return _rows(found) if found else None
             if head[1:2] == ["UniqueID"]:
@@ -83,7 +83,7 @@ class _Reader:
             return self._rows_of(item)
         return None
 
-    def _rows_of(self, item: Block) -> Points:
+    def _rows_of(self, item: OsgBlock) -> Points:
         """The rows of an array, which `.osgt` wraps in further blocks."""
         while item.blocks:
             item = self._share(item.blocks[0])
@@ -98,16 +98,16 @@ class _Reader:
         self.surfaces.append(Surface(surface.points @ here[:3, :3] + here[3, :3], surface.faces))
 
 
-def _identifier(block: Block) -> str:
+def _identifier(block: OsgBlock) -> str:
     name = block.words("UniqueID")
     return name[0] if name else ""
 
 
-def _rows(block: Block) -> Points:
+def _rows(block: OsgBlock) -> Points:
     return block.numbers().reshape(-1, 3)
 
 
-def _transform(block: Block) -> Points:
+def _transform(block: OsgBlock) -> Points:
     """The transform of a node, for rows: p · M."""
     if block.name == "MatrixTransform" and (matrix := block.block("Matrix")):
         return matrix.numbers().reshape(4, 4)
@@ -127,7 +127,7 @@ def _transform(block: Block) -> Points:
     return pose
 
 
-def _values(block: Block, name: str, usual: Sequence[float]) -> Points:
+def _values(block: OsgBlock, name: str, usual: Sequence[float]) -> Points:
     """The numbers of an attribute, whose first letter is a capital in `.osgt`."""
     words = block.words(name) or block.words(name[0].upper() + name[1:])
     return np.array(words or usual, float).reshape(len(usual))
@@ -144,7 +144,7 @@ def _rotation(quaternion: Points) -> Points:
     return rotation
 
 
-def _shape(block: Block) -> Surface:
+def _shape(block: OsgBlock) -> Surface:
     """A box; other shapes are left out."""
     box = block.block("Box") or next((b.block("Box") for b in block.blocks if b.block("Box")), None)
     if box is None:
@@ -156,19 +156,19 @@ def _shape(block: Block) -> Surface:
     return Surface(corners + _values(box, "Center", (0, 0, 0)), faces)
 
 
-def _faces(block: Block) -> Faces:
+def _faces(block: OsgBlock) -> Faces:
     """The triangles of all primitives of a geometry."""
     sets = block.block("PrimitiveSets") or block.block("PrimitiveSetList")
     found = [_primitive(item) for item in sets.items] if sets else []
     return np.concatenate([NO_FACES, *found])
 
 
-def _primitive(item: Line | Block) -> Faces:
+def _primitive(item: Line | OsgBlock) -> Faces:
     """The triangles of one primitive: `.osg` has its mode in the head, `.osgt` below it."""
-    head = item.head if isinstance(item, Block) else item
+    head = item.head if isinstance(item, OsgBlock) else item
     head = [word for i, word in enumerate(head) if "UniqueID" not in head[max(0, i - 1) : i + 1]]
     kind = head[0].rpartition("::")[2]
-    if not isinstance(item, Block):
+    if not isinstance(item, OsgBlock):
         return _drawn(head[1], *map(int, head[2:4])) if kind == "DrawArrays" else NO_FACES
     mode = head[1] if head[1:] else next(iter(item.words("Mode")), "")
     content = item.block("vector") or item
@@ -185,7 +185,7 @@ def _primitive(item: Line | Block) -> Faces:
     return NO_FACES
 
 
-def _integer(block: Block, name: str) -> int:
+def _integer(block: OsgBlock, name: str) -> int:
     """An attribute of `.osgt`, which leaves out a 0."""
     return int((block.words(name) or ["0"])[0])
 
@@ -215,5 +215,5 @@ def _triangles(mode: str, corners: NDArray[np.generic]) -> Faces:
         case _:
             found = NO_FACES
     distinct = (found[:, [0, 1, 2]] != found[:, [1, 2, 0]]).all(axis=1)
-    kept: Faces = found[distinct].astype(np.int32)
-    return kept
+    triangles: Faces = found[distinct].astype(np.int32)
+    return triangles

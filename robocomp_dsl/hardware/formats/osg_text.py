@@ -21,11 +21,11 @@ Line: TypeAlias = list[str]
 
 
 @dataclass(slots=True)
-class Block:
+class OsgBlock:
     """`head { items }`; a line of items is a list of words."""
 
     head: Line
-    items: list[Line | Block] = field(default_factory=list)
+    items: list[Line | OsgBlock] = field(default_factory=list)
 
     @property
     def name(self) -> str:
@@ -33,11 +33,11 @@ class Block:
         return self.head[0].rpartition("::")[2] if self.head else ""
 
     @property
-    def blocks(self) -> list[Block]:
+    def blocks(self) -> list[OsgBlock]:
         """The blocks directly in it."""
-        return [item for item in self.items if isinstance(item, Block)]
+        return [item for item in self.items if isinstance(item, OsgBlock)]
 
-    def block(self, name: str) -> Block | None:
+    def block(self, name: str) -> OsgBlock | None:
         """The first block `name` in it."""
         return next((block for block in self.blocks if block.name == name), None)
 
@@ -53,15 +53,15 @@ class Block:
         )
 
 
-def parse_blocks(text: str) -> Block:
+def parse_blocks(text: str) -> OsgBlock:
     """The file as one block without a name. Raises `ValueError` for wrong nesting."""
-    root = Block([])
+    root = OsgBlock([])
     nested = [root]
     for written in text.splitlines():
         words: Line = []
         for word in _WORD.findall(written):
             if word == "{":
-                block = Block(words or _last_line(nested[-1]))
+                block = OsgBlock(words or _last_line(nested[-1]))
                 nested[-1].items.append(block)
                 nested.append(block)
                 words = []
@@ -80,7 +80,7 @@ def parse_blocks(text: str) -> Block:
     return root
 
 
-def _last_line(block: Block) -> Line:
+def _last_line(block: OsgBlock) -> Line:
     """Take the last line of a block: the head of a brace on a line of its own."""
     if block.items and isinstance(block.items[-1], list):
         line = block.items.pop()
@@ -88,6 +88,6 @@ def _last_line(block: Block) -> Line:
     return []
 
 
-def _end_line(block: Block, words: Line) -> None:
+def _end_line(block: OsgBlock, words: Line) -> None:
     if words:
         block.items.append(words)
