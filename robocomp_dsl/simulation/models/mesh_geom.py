@@ -16,13 +16,14 @@ import numpy as np
 from robocomp_dsl.finding import Finding
 from robocomp_dsl.hardware.description.findings import model_finding
 from robocomp_dsl.hardware.formats.mesh_file import read_surface
-from robocomp_dsl.hardware.formats.surface import MeshError, Surface
+from robocomp_dsl.hardware.formats.surface import MeshError, Surface, scaled, used_part
 from robocomp_dsl.hardware.kinematics.rotations import Matrix
 from robocomp_dsl.simulation.models.mesh_marker import add_marker
 
 Settings: TypeAlias = dict[str, Any]
 
 _THINNEST = 1e-6
+_LARGEST = 1e6  # m
 _GEOM = mujoco.mjtGeom
 
 
@@ -57,30 +58,26 @@ class MeshCache:
         self, path: Path, scale: tuple[float, ...], subject: str, line: int
     ) -> Settings | None:
         try:
-            surface = read_surface(path)
+            whole = scaled(read_surface(path), scale, _LARGEST)
         except MeshError as error:
             message = f"the mesh `{path}` of `{subject}` is a small marker: {error}"
             self.findings.append(model_finding("mesh", subject, message, line))
             return None
-        points = surface.points * scale
+        surface = used_part(whole)
+        points = surface.points
         low, high = points.min(axis=0), points.max(axis=0)
         if len(surface.faces) and not is_flat(points):
-            return self._mesh(path, surface, points, scale)
+            return self._mesh(path, surface, scale)
         if not len(surface.faces):
-            message = (
-                f"the mesh `{path.name}` of `{subject}` is its bounding box: its faces are not"
-                " read; use .obj"
-            )
+            message = f"the mesh `{path.name}` of `{subject}` is {bounding_box_reason(whole)}"
             self.findings.append(model_finding("mesh", subject, message, line))
         return _box(((high - low) / 2).tolist(), (low + high) / 2)
 
-    def _mesh(
-        self, path: Path, surface: Surface, points: Matrix, scale: tuple[float, ...]
-    ) -> Settings:
+    def _mesh(self, path: Path, surface: Surface, scale: tuple[float, ...]) -> Settings:
         faces = surface.faces if np.prod(scale) > 0 else surface.faces[:, ::-1]
         asset = self.spec.add_mesh(
             name=f"{path.stem}.{len(self._geoms)}",
-            uservert=points.ravel().tolist(),
+            uservert=surface.points.ravel().tolist(),
             userface=faces.ravel().tolist(),
             inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
         )
@@ -90,6 +87,12 @@ class MeshCache:
 def _box(half: list[float], centre: Matrix) -> Settings:
     size = [max(part, _THINNEST) for part in half]
     return {"type": _GEOM.mjGEOM_BOX, "size": size, "shift": centre}
+
+
+def bounding_box_reason(surface: Surface) -> str:
+    """How a mesh without usable faces is shown, and why."""
+    why = "its faces have no area" if len(surface.faces) else "its faces are not read; use .obj"
+    return f"its bounding box: {why}"
 
 
 def is_flat(points: Matrix) -> bool:

@@ -18,7 +18,7 @@ from robocomp_dsl.finding import Finding
 from robocomp_dsl.hardware.description.findings import ModelFileError, model_finding
 from robocomp_dsl.hardware.description.model_paths import resolve
 from robocomp_dsl.hardware.formats.mesh_file import read_surface
-from robocomp_dsl.hardware.formats.surface import MeshError
+from robocomp_dsl.hardware.formats.surface import MeshError, used_part
 from robocomp_dsl.simulation.models.mesh_geom import MeshCache, Settings, is_flat
 
 _POINT = 1e-6  # m
@@ -107,7 +107,7 @@ def _hide(geom: Any) -> None:
 def _mesh_source(mesh: Any, file: Path) -> bool:
     """Set the points of a mesh from a file; MuJoCo reads OBJ and small binary STL files only."""
     try:
-        surface = read_surface(file)
+        surface = used_part(read_surface(file))
     except MeshError:
         return False
     if not len(surface.faces) or is_flat(surface.points):

@@ -17,10 +17,10 @@ from robocomp_dsl.hardware.description.scene import Box, Mesh, Triple
 from robocomp_dsl.hardware.description.world_files import exists
 from robocomp_dsl.hardware.formats.mesh_file import read_mesh
 from robocomp_dsl.hardware.formats.picture_file import PictureError, read_picture
-from robocomp_dsl.hardware.formats.surface import MeshError, Surface
+from robocomp_dsl.hardware.formats.surface import MeshError, Surface, scaled, used_part
 from robocomp_dsl.hardware.kinematics.rotations import Matrix, rotation
 from robocomp_dsl.simulation.devices.screen import add_screen
-from robocomp_dsl.simulation.models.mesh_geom import is_flat
+from robocomp_dsl.simulation.models.mesh_geom import bounding_box_reason, is_flat
 from robocomp_dsl.simulation.models.mesh_marker import add_marker
 from robocomp_dsl.simulation.scene import axes
 from robocomp_dsl.simulation.scene.axes import MM
@@ -106,11 +106,12 @@ def add_mesh(spec: Any, body: Any, mesh: Mesh) -> str:
         "quat": axes.quaternion(rotation(*mesh.turn)),
     }
     try:
-        surface = read_mesh(Path(mesh.file))
-        points = _scaled(surface, mesh.scale)
+        whole = scaled(read_mesh(Path(mesh.file)), mesh.scale, _LARGEST / MM)
     except MeshError as error:
         add_marker(body, mesh.id, axes.point(*mesh.place))
         return f"a small marker: {error}" if not mesh.file or exists(Path(mesh.file)) else ""
+    surface = used_part(whole)
+    points = surface.points
     low, high = points.min(axis=0), points.max(axis=0)
     if len(surface.faces) and not is_flat(points) and (high - low).max() * MM > _SMALLEST:
         asset = spec.add_mesh(
@@ -131,15 +132,7 @@ def add_mesh(spec: Any, body: Any, mesh: Mesh) -> str:
     placed["pos"] = axes.point(*centre)
     half = _half(tuple((high - low).tolist()))
     body.add_geom(type=_GEOM.mjGEOM_BOX, size=half, rgba=_GREY, **placed, **_touch(mesh.collide))
-    return "" if len(surface.faces) else "its bounding box: its faces are not read; use .obj"
-
-
-def _scaled(surface: Surface, scale: Triple) -> Matrix:
-    with np.errstate(all="ignore"):
-        points: Matrix = surface.points * scale
-    if not (np.abs(points) * MM <= _LARGEST).all():
-        raise MeshError(f"no world holds it with the scale {', '.join(f'{s:g}' for s in scale)}")
-    return points
+    return "" if len(surface.faces) else bounding_box_reason(whole)
 
 
 def _outside(surface: Surface, scale: Triple) -> Any:
