@@ -46,7 +46,8 @@ def test_innermodel_agrees_with_simulators_servant(seed: int, tmp_path: Path) ->
     transforms = [node.id for node in nodes if node and node.tag == "transform"]
     for name in transforms:
         pose = [rng.uniform(-400, 400) for _ in range(3)] + [rng.uniform(-3, 3) for _ in range(3)]
-        base = rng.choice([b for b in IDS if b not in model.getSubTree(name)])
+        outside = {"root", *IDS} - set(model.getSubTree(name))
+        base = rng.choice(sorted(outside))
         manager.setPose(base, name, world.types.Pose3D(*pose))
         model.updateTransformValuesV(name, pose, base)
     assert transforms
