@@ -13,6 +13,7 @@ from typing import Any
 from robocomp_dsl.generate.scene.frames import lower_frame
 from robocomp_dsl.generate.scene.skin import lower_skin
 from robocomp_dsl.model import innermodel
+from robocomp_dsl.model.touch_shapes import feels
 
 Data = dict[str, Any]
 
@@ -37,6 +38,8 @@ def _lower(node: innermodel.Node, parent: innermodel.Node, data: Data, taken: se
             data["frames"].append(lower_frame(node, parent))
         case innermodel.TouchSensor():
             data["frames"].append({"id": node.id, "parent": parent.id})
+            if not feels(node):
+                return  # the checks report it
         case innermodel.Plane():
             data["boxes"].append(_box(node, parent))
         case innermodel.Mesh():
