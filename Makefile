@@ -76,7 +76,7 @@ test-peers: $(READY)
 # Deployments over several hosts: OpenSSH servers, systemd and networks in namespaces of their own.
 test-hosts: $(READY)
 	tests/hosts/install.sh
-	$(BIN)/python -m pytest -q -n $(WORKERS) --dist loadfile -m "hosts and not slow" tests/hosts
+	$(BIN)/python -m pytest -q -n $(WORKERS) --dist loadfile -m hosts tests/hosts
 
 vsix:
 	cd editors/vscode && npm ci --no-audit --no-fund && npm run --silent package

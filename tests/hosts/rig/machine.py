@@ -9,7 +9,8 @@ import signal
 import struct
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -209,13 +210,14 @@ class SimulatedHost:
         """End `cut_link`."""
         self._network.set_forwarding(self._link, on=True)
 
-    def netem(self, *, loss: float = 0.0, delay_ms: float = 0.0) -> None:
+    @contextmanager
+    def netem(self, *, loss: float = 0.0, delay_ms: float = 0.0) -> Iterator[None]:
         """Lose packets to and from the host with this probability, delay the others each way."""
         self._network.impair(self._link, self._pid, loss, delay_ms / 1e3)
-
-    def end_netem(self) -> None:
-        """End `netem`."""
-        self._network.restore(self._link, self._pid)
+        try:
+            yield
+        finally:
+            self._network.restore(self._link, self._pid)
 
     @property
     def _pid(self) -> int:
