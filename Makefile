@@ -54,8 +54,9 @@ campaign-hosts: $(READY)
 highlight: $(READY)
 	$(BIN)/python -m editors.highlight
 
-# Install the programs that tests use besides Python: editors, and the Slice compiler.
+# Install the programs that tests use besides Python: editors, the Slice compiler, systemd.
 test-tools: $(READY)
+	tests/hosts/install.sh
 	editors/install-test-tools.sh $(CURDIR)/$(BIN)/python
 	$(BIN)/pip install -q --disable-pip-version-check kubernetes-validate
 

@@ -67,7 +67,7 @@ def seconds_until_done(*words: str | Path) -> tuple[float, int]:
         with RcdeployRun(*words) as run:
             code = run.wait()
             outputs.append(run.output)
-        assert code == 0 or any(text in run.output for text in OUT_OF_REACH), run.output
+        assert code == 0 or any(text in outputs[-1] for text in OUT_OF_REACH), outputs[-1]
         return code == 0
 
     wait_until(succeeds, lambda: "\n".join(outputs))
