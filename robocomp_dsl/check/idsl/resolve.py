@@ -116,13 +116,24 @@ class _Resolver:
                 return types.Enum(*head, self._enumerators(tree.enumerators))
             case ast.Interface():
                 return self._interface(tree, head)
+        return self._build_of_others(tree, head)
+
+    def _build_of_others(
+        self,
+        tree: ast.Sequence | ast.Dictionary | ast.Alias,
+        head: tuple[str, str, Span, str],
+    ) -> types.Declaration | None:
+        """A declaration of one or two other types."""
+        match tree:
             case ast.Dictionary():
                 key, value = self._names.data(tree.key), self._names.data(tree.value)
                 return types.Dictionary(*head, key, value) if key and value else None
-            case ast.Sequence(element=inner) | ast.Alias(target=inner):
-                part = self._names.data(inner)
-                kind = types.Sequence if isinstance(tree, ast.Sequence) else types.Alias
-                return kind(*head, part) if part else None
+            case ast.Sequence():
+                element = self._names.data(tree.element)
+                return types.Sequence(*head, element, bound=tree.bound) if element else None
+            case ast.Alias():
+                target = self._names.data(tree.target)
+                return types.Alias(*head, target) if target else None
 
     def _fields(
         self,

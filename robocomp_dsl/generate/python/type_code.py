@@ -14,7 +14,6 @@ from robocomp_dsl.generate.python.python_types import (
     PythonTypes,
     column_of,
     field_names,
-    numpy_of,
     record_element,
 )
 from robocomp_dsl.model.types import (
@@ -108,8 +107,7 @@ def type_code(declaration: Declaration, types: PythonTypes) -> TypeCode:
                 columns = tuple(_columns(element, types))
                 base = types.names[element]
                 return TypeCode("array", name, base, doc, (), is_hidden, columns=columns)
-            array = numpy_of(declaration)
-            base = array.alias if array else f"list[{types.declared(declaration.element)}]"
+            base = types.list_or_array(declaration)
             return TypeCode("alias", name, base, "", comments, is_hidden)
     raise TypeError(f"{declaration.qualified} is no type")
 

@@ -194,11 +194,7 @@ def _filled(type_: Type, items: _Items, constant: str, scope: dict[str, Any]) ->
 def _empty(type_: Type, constant: str, scope: dict[str, Any]) -> str:
     """An expression for a new empty object of `type_`."""
     if isinstance(type_, Sequence):
-        if not type_.size:
-            return "[]"
-        if isinstance(type_.element, Primitive):
-            return f'[""] * {type_.size}'
-        return f"[{_empty(type_.element, constant, scope)} for _ in range({type_.size})]"
+        return _empty_list(type_, constant, scope)
     if isinstance(type_, Dictionary):
         return "{}"
     if isinstance(type_, Array):
@@ -206,3 +202,20 @@ def _empty(type_: Type, constant: str, scope: dict[str, Any]) -> str:
         return f"_zeros({type_.size}, {constant})"
     scope[constant] = type_
     return f"{constant}()"
+
+
+def _empty_list(type_: Sequence, constant: str, scope: dict[str, Any]) -> str:
+    """An expression for a new list of as many elements as `type_` must have."""
+    if not type_.size:
+        return "[]"
+    if isinstance(type_.element, Primitive):
+        return f'[""] * {type_.size}'
+    if isinstance(type_.element, type) and issubclass(type_.element, Enum):
+        scope[constant] = _first(type_.element)
+        return f"[{constant}] * {type_.size}"
+    return f"[{_empty(type_.element, constant, scope)} for _ in range({type_.size})]"
+
+
+def _first(type_: type[Enum]) -> Enum:
+    """The enumerator 0, else the first."""
+    return next((member for member in type_ if not member), next(iter(type_)))

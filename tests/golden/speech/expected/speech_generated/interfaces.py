@@ -14,7 +14,7 @@ class DatasayReq(rt.Struct, type_id="RoboCompSpeech::DatasayReq"):
 class DatasayResp(rt.Struct, type_id="RoboCompSpeech::DatasayResp"):
     """RoboCompSpeech::DatasayResp."""
 
-    queued: rt.Int = 0  # [sentences]
+    queued: rt.Int = 0  # [counts]
 
 
 class NoVoice(rt.DeclaredError, type_id="RoboCompSpeech::NoVoice"):
