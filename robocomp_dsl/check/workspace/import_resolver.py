@@ -97,7 +97,7 @@ class ImportResolver:
     def _climb(self, folder: Path) -> Iterator[Path]:
         home = self._shipped.absolute().parent
         if ".." in folder.parts:
-            folder = Path(os.path.abspath(folder))
+            folder = folder.resolve()
         for place in (folder, *folder.parents, *folder.absolute().parents[len(folder.parents) :]):
             if place.absolute() == home:
                 return
