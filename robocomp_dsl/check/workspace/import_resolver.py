@@ -58,7 +58,7 @@ class ImportResolver:
         `root` is the checked file, which is also the default of `beside`.
         """
         around = self._interfaces_around(root)
-        own = (root.parent,)
+        own: tuple[Path, ...] = (root.parent,)
         if beside is not None and beside.parent != root.parent:
             own = (root.parent, beside.parent)
             around = (*self._interfaces_around(beside), *around)

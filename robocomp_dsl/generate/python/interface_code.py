@@ -33,6 +33,7 @@ class OperationCode(ValueRecord):
     throws: str
     idempotent: str
     input_defaults: str
+    units: str
 
 
 class InterfaceCode(ValueRecord):
@@ -84,6 +85,7 @@ def _operation(operation: Operation, types: PythonTypes) -> OperationCode:
         f"({', '.join(throws)}{',' if len(throws) == 1 else ''})" if throws else "",
         "True" if operation.idempotent else "",
         _defaults(operation, types),
+        literals.unit_table((*operation.inputs, *operation.outputs)),
     )
 
 
