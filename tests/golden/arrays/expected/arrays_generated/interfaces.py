@@ -13,7 +13,7 @@ class Kind(rt.Enum):
     Door = 2
 
 
-class Point(rt.Struct, type_id="RoboCompArrays::Point"):
+class Point(rt.Struct, type_id="RoboCompArrays::Point", units={"x": "mm"}):
     """RoboCompArrays::Point."""
 
     id: rt.UInt32 = 4294967295
@@ -29,7 +29,11 @@ Stamps = rt.UInt64Array
 ById = dict[rt.UInt32, rt.String]
 
 
-class Estimate(rt.Struct, type_id="RoboCompArrays::Estimate"):
+class Estimate(
+    rt.Struct,
+    type_id="RoboCompArrays::Estimate",
+    units={"covariance": "mm^2", "stamp": "ns", "history": "m"},
+):
     """RoboCompArrays::Estimate."""
 
     # [mm^2] Row by row.
@@ -45,7 +49,7 @@ class Estimate(rt.Struct, type_id="RoboCompArrays::Estimate"):
     stamps: Stamps = rt.default()
 
 
-class Lost(rt.DeclaredError, type_id="RoboCompArrays::Lost"):
+class Lost(rt.DeclaredError, type_id="RoboCompArrays::Lost", units={"since": "s"}):
     """RoboCompArrays::Lost."""
 
     since: Annotated[rt.Float64Array, rt.Length(3)] = rt.default()  # [s]
@@ -60,9 +64,12 @@ ARRAYS = rt.Interface(
         returns=rt.UInt32,
         outputs={"seen": Points},
         throws=(Lost,),
+        units={"when": "ns"},
     ),
     rt.Operation("names", inputs={"wanted": Names}, returns=ById, idempotent=True),
-    rt.Operation("reset", rt.Pattern.COMMAND, inputs={"values": Values}),
+    rt.Operation(
+        "reset", rt.Pattern.COMMAND, inputs={"values": Values}, units={"values": "rad"}
+    ),
 )
 
 
