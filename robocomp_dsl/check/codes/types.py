@@ -241,18 +241,19 @@ without `out`: RoboComp's communication patterns are used this way. If the name 
 
 TOPIC_WITH_OUTPUT = Code(
     "RC314",
-    Severity.ERROR,
+    Severity.WARNING,
     "an interface with outputs is used as a topic",
     """\
-Published messages are sent to every subscriber and have no reply. So all operations of a topic are
-`void`, without `out` and without `throws`.
+Published messages are sent to every subscriber and have no reply. So a topic has only the
+operations that are `void`, without `out` and without `throws`. The others have no method at a
+subscriber, and raise `NotPublishable` if they are called on a published port.
 
-Wrong:
+Not published:
 
     interface Laser { TLaserData getLaserData(); };
     Component base { Communications { publishes Laser; }; language Python; };
 
-Right:
+Better:
 
     interface LaserPub { void pushLaserData(TLaserData scan); };
     Component base { Communications { publishes LaserPub; }; language Python; };

@@ -132,6 +132,11 @@ class Interface:
         """
         return interface_hash(self.name, (operation.shape for operation in self.operations))
 
+    @property
+    def published(self) -> tuple[Operation, ...]:
+        """The operations of a topic: those without a reply."""
+        return tuple(o for o in self.operations if o.pattern is not Pattern.QUERY)
+
     @cached_property
     def shapes(self) -> dict[str, str]:
         """The shape of each operation by name, in the order of `operations`."""
