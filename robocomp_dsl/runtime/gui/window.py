@@ -1,0 +1,43 @@
+"""The base of a worker with a window.
+
+The generated class extends it and the class of Qt that the CDSL file names. The window has the
+widgets of the `.ui` file in `ui`, and is shown when the object exists.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+from robocomp_dsl.runtime.component.component import Component
+from robocomp_dsl.runtime.errors import WindowError
+from robocomp_dsl.runtime.gui.qt import QtWidgets
+from robocomp_dsl.runtime.gui.ui_file import find_ui_file, load_form
+
+__all__ = ["QtWidgets", "Window"]
+
+
+class Window(Component):
+    """A component that is a window.
+
+    `ui` has the widgets of `mainUI.ui` by name. The hooks run in the thread of Qt, so they may use
+    widgets; other threads, such as handlers, emit signals. Closing the window stops the component.
+    """
+
+    ui: Any  # of the class that Qt generates from the file
+
+    def __init__(self) -> None:
+        super().__init__()
+        if not isinstance(self, QtWidgets.QWidget):
+            raise TypeError(f"{type(self).__name__} extends no window of Qt")
+        module = sys.modules.get(type(self).__module__)
+        path = find_ui_file(Path(getattr(module, "__file__", None) or "main.py").parent)
+        self.ui = load_form(path)
+        try:
+            self.ui.setupUi(self)
+        except AttributeError as error:
+            kind = next(base for base in type(self).__mro__ if base.__module__.startswith("PySide"))
+            message = f"{path}: the form does not fit the window of the component, a"
+            raise WindowError(f"{message} {kind.__name__}: {error}") from None
+        self.show()
