@@ -320,9 +320,10 @@ FORM_MISMATCH = Code(
     Severity.WARNING,
     "the form does not fit the window",
     """\
-`gui` names the class of the window, and `mainUI.ui` contains its widgets. The form of a `QMainWindow`
-has a central widget and menus, which other windows lack; a layout of another form has no place in a
-`QMainWindow`. So both must be for the same class; a `QDialog` also takes the form of a `QWidget`.
+`gui` names the class of the window, and `mainUI.ui` contains its widgets. The form of a
+`QMainWindow` has a central widget and menus, which other windows lack; a layout of another form has
+no place in a `QMainWindow`. So both must be for the same class; a `QDialog` also takes the form of
+a `QWidget`.
 
 Wrong, where `mainUI.ui` begins with `<widget class="QMainWindow" …>`:
 

@@ -104,7 +104,7 @@ class WindowApplication:
 
 def _choose_platform() -> None:
     """Render offscreen if there is no display, and nothing else was chosen."""
-    if PLATFORM in os.environ or any(os.environ.get(name) for name in DISPLAYS):
+    if os.environ.get(PLATFORM) or any(os.environ.get(name) for name in DISPLAYS):
         return
     log.warning(
         "the window is not shown: there is no display, as neither %s is set", " nor ".join(DISPLAYS)

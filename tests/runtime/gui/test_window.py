@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 from PySide6 import QtCore, QtTest, QtWidgets
@@ -118,9 +119,8 @@ def test_window_runs_hooks_and_slots_in_main_thread() -> None:
     worker, succeeded = run_window(Counter, click)
     main = {threading.current_thread().name}
     assert succeeded
-    assert {method: main for method in ("initialize", "on_click", "compute", "finalize")} == {
-        method: threads for method, threads in worker.threads.items() if method != "on_tick"
-    }
+    methods = ("initialize", "on_click", "compute", "finalize")
+    assert [worker.threads[method] for method in methods] == [main] * 4
 
 
 def test_window_slots_hooks_and_handlers_never_overlap() -> None:
@@ -134,7 +134,7 @@ def test_window_slots_hooks_and_handlers_never_overlap() -> None:
                 thread.start()
             for thread in threads:
                 thread.join(60)
-            wait_until(lambda: worker.calls["on_tick"] > 20 and worker.calls["compute"] > 20)
+            wait_until(lambda: all(worker.calls.get(m, 0) > 20 for m in ("on_tick", "compute")))
 
     worker, _ = run_window(Counter, call)
     assert worker.calls["Counts_count"] == 300
@@ -174,8 +174,8 @@ def test_window_answers_calls_while_a_dialog_is_open() -> None:
         wait_until(lambda: dialogs and dialogs[0].isVisible())
         with proxy_of(runner, CountsProxy) as counts:
             answers.append(counts.count())
-        computes = worker.calls["compute"]
-        wait_until(lambda: worker.calls["compute"] > computes)
+        computes = worker.calls.get("compute", 0)
+        wait_until(lambda: worker.calls.get("compute", 0) > computes)
         QtCore.QTimer.singleShot(0, dialogs[0], dialogs[0].accept)
         wait_until(lambda: not dialogs[0].isVisible())
 
@@ -189,8 +189,8 @@ def test_window_logs_exception_of_a_slot_and_goes_on(caplog: pytest.LogCaptureFi
     def fail(worker: Counter, _: Runner) -> None:
         QtCore.QTimer.singleShot(0, worker, lambda: {}["missing"])
         wait_until(lambda: "a slot failed" in caplog.text)
-        computes = worker.calls["compute"]
-        wait_until(lambda: worker.calls["compute"] > computes)
+        computes = worker.calls.get("compute", 0)
+        wait_until(lambda: worker.calls.get("compute", 0) > computes)
 
     with caplog.at_level(logging.ERROR, "robocomp"):
         assert run_window(Counter, fail)[1]
@@ -223,7 +223,7 @@ def test_window_ends_component(end: Callable[[Counter], None]) -> None:
     def act(worker: Counter, runner: Runner) -> None:
         wait_until(lambda: worker.calls.get("compute"))
         QtCore.QTimer.singleShot(0, worker, lambda: end(worker))
-        wait_until(lambda: runner.lifecycle.finalized.is_set())
+        wait_until(runner.lifecycle.finalized.is_set)
 
     worker, succeeded = run_window(Counter, act)
     assert succeeded
@@ -249,15 +249,17 @@ def test_window_without_qt_class_is_rejected() -> None:
         NoWindow()
 
 
-def test_window_rejects_form_of_another_class(tmp_path, monkeypatch) -> None:  # type: ignore[no-untyped-def]
+def test_window_rejects_form_of_another_class(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     form = (
         '<ui version="4.0"><class>guiDlg</class><widget class="QMainWindow" name="guiDlg">'
         '<widget class="QWidget" name="centralwidget"/></widget></ui>'
     )
     (tmp_path / "mainUI.ui").write_text(form)
-    monkeypatch.setattr("sys.modules", {**__import__("sys").modules})
     monkeypatch.setitem(globals(), "__file__", str(tmp_path / "worker.py"))
-    QtWidgets.QApplication.instance() or QtWidgets.QApplication([])
+    application = QtWidgets.QApplication.instance() or QtWidgets.QApplication([])
+    assert application
     with pytest.raises(WindowError, match=r"mainUI\.ui: the form does not fit .* a QWidget"):
         Counter()
 
