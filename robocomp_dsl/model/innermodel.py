@@ -100,7 +100,7 @@ class Base(Transform):
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class TouchSensor(Node):
-    """Senses contact along its normal; `min` and `max` bound the value."""
+    """Senses contact of the shapes in it, along its normal; `min` and `max` bound the value."""
 
     type: str = "0"
     nx: float = 0.0

@@ -206,3 +206,29 @@ def test_innermodel_check_limits_nesting_depth(tmp_path: Path) -> None:
     found, report = checked(tmp_path, text)
     assert [d.code.id for d in report] == ["RC807"]
     assert len(list(found.nodes())) == 202
+
+
+INSIDE = [
+    ("", "RC784", "put a `<plane>` or a `<mesh>`"),
+    ('<plane id="p"/>', "RC784", 'set `collide="1"` on `p`'),
+    ('<transform id="t"><mesh id="m" file="m.obj"/></transform>', "RC784", "on `m`"),
+    ('<plane id="p" collide="1"/>', "", ""),
+    ('<transform id="t"><mesh id="m" file="m.obj" collide="1"/></transform>', "", ""),
+    ('<plane id="p"/><display id="d" collide="1"/>', "", ""),
+]
+
+
+@pytest.mark.parametrize(("inside", "code", "help_text"), INSIDE)
+@pytest.mark.parametrize("kind", ["bumper", "force"])
+def test_check_innermodel_rejects_touch_sensor_without_shape(
+    tmp_path: Path, kind: str, inside: str, code: str, help_text: str
+) -> None:
+    """Shapes of the robot beside the sensor are not part of it."""
+    text = f'<touchsensor id="bump" type="{kind}">{inside}</touchsensor>'
+    text = f'<transform id="robot"><plane id="hull" collide="1"/>{text}</transform>'
+    _, report = checked(tmp_path, text)
+    assert [d.code.id for d in report] == [code] * bool(code)
+    for finding in report:
+        assert finding.span.text == "<touchsensor"
+        assert finding.message == "`bump` would never feel anything: no shape in it collides"
+        assert help_text in finding.help

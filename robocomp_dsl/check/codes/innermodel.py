@@ -1,4 +1,4 @@
-"""RC80x: the tags, attributes and values of InnerModel files."""
+"""RC80x and RC784: the tags, attributes and values of InnerModel files."""
 
 from __future__ import annotations
 
@@ -154,5 +154,26 @@ INNERMODEL_TOO_LARGE = Code(
     """\
 Files that include others many times can exceed the available memory. Reading stops at 100 000
 nodes.
+""",
+)
+
+INNERMODEL_TOUCH = Code(
+    "RC784",
+    Severity.ERROR,
+    "a touch sensor contains no shape that collides",
+    """\
+A `touchsensor` feels the contacts of the shapes in it: planes and meshes with `collide="1"`, in the
+sensor or in frames in it. Without one it could never be touched and would always read 0. A
+simulation leaves such a sensor out. A shape of the robot outside the sensor is not part of it.
+
+Wrong:
+
+    <touchsensor id="bump" type="bumper"/>
+
+Right:
+
+    <touchsensor id="bump" type="bumper">
+        <plane id="bump_plate" pz="200" size="400,100,20" collide="1"/>
+    </touchsensor>
 """,
 )

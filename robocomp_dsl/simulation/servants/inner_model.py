@@ -24,7 +24,6 @@ from robocomp_dsl.hardware.description.scene_edit import (
     add_mesh,
     box_of,
     frame_of,
-    move_node,
     parents,
     remove_node,
     replace_box,
@@ -97,7 +96,7 @@ class InnerModelServant(Servant):
     # -- add ----------------------------------------------------------------------------------
 
     def addTransform(self, item: str, engine: str, base: str, pose: Any) -> bool:
-        """Add a frame; with the engine `bullet` and in the root it is subject to gravity."""
+        """Add a frame; with the engine `bullet` it falls, unless a frame above it moves."""
         physics = engine == "bullet"
         place, turn = _pose(pose)
         frame = Frame(item, base, place, turn, physics=physics, mass=_FALLING if physics else 0.0)
@@ -214,7 +213,8 @@ class InnerModelServant(Servant):
 
     def moveNode(self, src: str, dst: str) -> bool:
         """Move a node to another parent."""
-        return self._rebuild(move_node(self._scene, src, dst))
+        nodes.move(self.device(), src, dst)
+        return True
 
     def setPointCloudData(self, id: str, cloud: Any) -> None:
         """Replace the points of a cloud."""

@@ -30,6 +30,7 @@ SCREEN = ".screen"
 """Suffix of the names of textures that change at run time."""
 _SKY = 0.4
 """Share of the far plane's distance: the sky box is not nearer, scenes are much smaller."""
+DEFAULT_SIZE = (1280, 960)
 LARGEST = 8192
 """Maximum pixels per side."""
 
@@ -130,9 +131,7 @@ class Renderer:
     def _camera(self, look: Viewpoint, data: Any) -> Any:
         camera = mujoco.MjvCamera()
         if look.camera:
-            number = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_CAMERA, look.camera)
-            if number < 0:
-                raise NoRendering(f"the model has no camera `{look.camera}`")
+            number = find_camera(self.model, look.camera)
             camera.type, camera.fixedcamid = mujoco.mjtCamera.mjCAMERA_FIXED, number
             return camera
         camera.type = mujoco.mjtCamera.mjCAMERA_FREE
@@ -145,6 +144,25 @@ class Renderer:
         camera.distance = look.distance * radius / math.sin(opening / 2)
         camera.azimuth, camera.elevation = look.azimuth, look.elevation
         return camera
+
+
+def find_camera(model: Any, name: str) -> int:
+    """The number of a camera of the model. Raises `NoRendering`, which lists the cameras."""
+    number = int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_CAMERA, name))
+    if number < 0:
+        names = [f"`{model.camera(i).name}`" for i in range(model.ncam) if model.camera(i).name]
+        known = f"its cameras are {', '.join(names)}" if names else "it has none"
+        raise NoRendering(f"the model has no camera `{name}`: {known}")
+    return number
+
+
+def picture_size(model: Any, look: Viewpoint) -> tuple[int, int]:
+    """The default width and height: those of the camera if it has some. Raises `NoRendering`."""
+    if look.camera:
+        width, height = model.cam_resolution[find_camera(model, look.camera)].tolist()
+        if width > 1 and height > 1:  # MuJoCo's default is one pixel
+            return width, height
+    return DEFAULT_SIZE
 
 
 def _is_screen(model: Any, texture: int) -> bool:

@@ -14,11 +14,13 @@ from typing import Any, Protocol
 import mujoco
 import numpy as np
 
+from robocomp_dsl.hardware.description.falling import falls
 from robocomp_dsl.hardware.description.scene import ROOT, Frame, Scene
 from robocomp_dsl.hardware.description.scene_edit import (
     NodeError,
     NodeErrorCode,
     frame_of,
+    move_node,
     replace_frame,
     subtree,
 )
@@ -75,11 +77,14 @@ def place(simulation: ChangeableWorld, base: str, item: str, pose: Sequence[floa
         )
         return
     in_parent = between(simulation.state, frame.parent, base) @ matrix_of(pose)
-    parent = pose_of(in_parent)
-    x, y, z, rx, ry, rz = parent
+    # as it is written, if it is relative to the parent: a joint may turn by more than 180 degrees
+    x, y, z, rx, ry, rz = pose if base == frame.parent else pose_of(in_parent)
     changed = replace(frame, place=(x, y, z), turn=(rx, ry, rz))
     if frame.motion:
         _place_joint(simulation, changed)
+    elif _falls(simulation.state, frame.id):
+        in_root = between(simulation.state, ROOT, frame.parent) @ in_parent
+        _place_body(simulation, changed, in_root)
     else:
         _place_body(simulation, changed, in_parent)
 
@@ -113,12 +118,13 @@ def _place_joint(simulation: ChangeableWorld, frame: Frame) -> None:
     simulation.state.devices[frame.id].update_frame(frame.id)
 
 
-def _place_body(simulation: ChangeableWorld, frame: Frame, in_parent: Matrix) -> None:
+def _place_body(simulation: ChangeableWorld, frame: Frame, pose: Matrix) -> None:
+    """`pose` is in the body above in MuJoCo's tree: of a falling frame, the world."""
     branch = simulation.state
     model, data = branch.world.model, branch.world.data
     body = branch.body(frame.id)
-    position = axes.point(*in_parent[:3, 3].tolist())
-    turned = axes.quaternion(in_parent[:3, :3])
+    position = axes.point(*pose[:3, 3].tolist())
+    turned = axes.quaternion(pose[:3, :3])
     branch.scene = replace_frame(branch.scene, frame)
     model.body_pos[body], model.body_quat[body] = position, turned
     first = int(model.body_jntadr[body])
@@ -132,6 +138,22 @@ def _place_body(simulation: ChangeableWorld, frame: Frame, in_parent: Matrix) ->
     if device is not None and hasattr(device, "update_frame"):
         device.update_frame(frame.id)
     simulation.switch_to(branch)
+
+
+def move(simulation: ChangeableWorld, item: str, parent: str) -> None:
+    """Move a node to another parent; its present local pose is unchanged, also if it fell there."""
+    scene, forget = simulation.state.scene, []
+    if any(frame.id == item for frame in scene.frames) and _falls(simulation.state, item):
+        frame = frame_of(scene, item)
+        x, y, z, rx, ry, rz = pose_of(between(simulation.state, frame.parent, item))
+        scene = replace_frame(scene, replace(frame, place=(x, y, z), turn=(rx, ry, rz)))
+        forget = [item]
+    simulation.rebuild(move_node(scene, item, parent), forget)
+
+
+def _falls(state: SimulationState, id: str) -> bool:
+    frames = {frame.id: frame for frame in state.scene.frames}
+    return falls(frames[id], frames)
 
 
 def touching(state: SimulationState, first: str, other: str) -> bool:

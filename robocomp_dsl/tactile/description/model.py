@@ -168,6 +168,11 @@ class RobotDescription:
     model: str = ""
     model_place: Location = field(default=NOWHERE, compare=False)
 
+    @property
+    def model_file(self) -> Path | None:
+        """The path of the robot's model, which may not exist; None without `model`."""
+        return self.file.parent / self.model if self.model else None
+
     def part(self, name: str) -> GenericPart:
         """The part of that name. Raises `KeyError` if there is none."""
         return {part.name: part for part in self.parts}[name]

@@ -8,6 +8,7 @@ import sys
 import time
 import urllib.request
 from collections.abc import Iterator
+from contextlib import closing
 from functools import partial
 from pathlib import Path
 
@@ -17,9 +18,11 @@ import pytest
 
 pytest.importorskip("viser", reason="needs the extra `view`")
 
+from robocomp_dsl.hardware.devices.errors import NoRendering
 from robocomp_dsl.simulation.models.model_file import load_model
 from robocomp_dsl.simulation.view.browser import LOOPBACK, BrowserPage
 from robocomp_dsl.simulation.view.nodes import quaternion, roll_pitch_yaw, tree
+from robocomp_dsl.simulation.view.picture import Viewpoint
 from robocomp_dsl.simulation.view.shapes import colour, triangles
 from robocomp_dsl.simulation.view.stage import relative_poses
 from robocomp_dsl.simulation.world.visual_state import capture
@@ -223,3 +226,20 @@ def test_browser_view_renders_scene_in_browser_without_other_requests(tab: Tab) 
         finally:
             served.send_signal(signal.SIGINT)
         assert served.wait(TIMEOUT_S) == 130
+
+
+def test_browser_view_starts_at_camera_of_model() -> None:
+    """It looks along -z of MuJoCo's camera: here from the south to the north."""
+    text = """<mujoco><worldbody><geom size=".1"/><body pos="0 -1 0.5">
+      <camera name="side" euler="90 0 0" fovy="40"/></body></worldbody></mujoco>"""
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    with closing(BrowserPage("m", model, data, Viewpoint(camera="side"))) as shown:
+        camera = shown._server.initial_camera
+        assert camera.position == pytest.approx((0, -1, 0.5))
+        assert camera.look_at == pytest.approx((0, 0, 0.5), abs=1e-6)
+        assert camera.up == pytest.approx((0, 0, 1), abs=1e-6)
+        assert camera.fov == pytest.approx(np.deg2rad(40))
+    with pytest.raises(NoRendering, match="its cameras are `side`"):
+        BrowserPage("m", model, data, Viewpoint(camera="top"))

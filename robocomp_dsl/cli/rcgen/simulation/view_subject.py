@@ -32,6 +32,7 @@ from robocomp_dsl.simulation.models.model_file import compiled, read_spec
 from robocomp_dsl.simulation.models.model_state import initial_data
 from robocomp_dsl.simulation.robots.build import add_robot, new_world
 from robocomp_dsl.simulation.robots.catalog import ROBOTS
+from robocomp_dsl.simulation.scene.scene_devices import place_cameras
 from robocomp_dsl.simulation.scene.scene_spec import build_spec
 from robocomp_dsl.simulation.view.picture import add_lighting
 from robocomp_dsl.simulation.world.limits import clamp_scene
@@ -104,6 +105,7 @@ def _world(path: Path, report: Report) -> Subject | None:
         resolve_files(data, path.parent)
         scene, limit_notes = clamp_scene(Scene.of_data(data))
         spec, notes = build_spec(scene)
+        place_cameras(scene, spec)
         add_lighting(spec)
         model = compiled(spec, findings)
     except SceneError as error:
