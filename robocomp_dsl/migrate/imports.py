@@ -19,8 +19,6 @@ from robocomp_dsl.source import Span
 GENERATED_MODULES = ("genericworker", "interfaces")
 """Modules that RoboComp generated next to the worker."""
 QT = ("PySide", "PySide2", "PySide6", "PyQt4", "PyQt5", "PyQt6")
-TIMER = "QTimer()"
-"""Code that creates its own timers; no event loop runs them."""
 TextEdit = tuple[int, int, str]
 """Replace the text of [start, end)."""
 
@@ -156,8 +154,6 @@ def _unsupported_qt_name(node: ast.ImportFrom, used: dict[str, set[str]]) -> str
 def _unsupported_attribute(name: str, bound: str, used: dict[str, set[str]]) -> str | None:
     """A used attribute that the stand-in `name`, bound as `bound`, lacks; None if none."""
     known, taken = STAND_INS[name], used.get(bound, set())
-    if TIMER in (f"{name}()" if "()" in taken else "", *taken):
-        return f"`{TIMER}`"
     extra = {attribute.removesuffix("()") for attribute in taken if attribute != "()"} - known
     return f"`{name}.{min(extra)}`" if extra else None
 

@@ -19,6 +19,7 @@ from functools import partial
 from typing import Protocol
 
 from robocomp_dsl.runtime.clock import CLOCK_LOST, NANO, TIME_DIGITS, Clock, WakeEvent
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.hook_thread import HookThread
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.throttle import Throttle
@@ -64,7 +65,11 @@ class Hooks(Protocol):
 
 
 class Lifecycle:
-    """Runs one component; `publish_state` receives every state."""
+    """Runs one component; `publish_state` receives every state.
+
+    `on_stop` are called at the request to stop, while a hook may still run; `stops_with_machine`
+    says whether the component ends when its state machine has.
+    """
 
     def __init__(
         self,
@@ -90,8 +95,15 @@ class Lifecycle:
         self._declared = False
         self._finalize_lock = threading.Lock()
         self.finalized = threading.Event()
+        self.on_stop: list[Callable[[], None]] = []
+        self.stops_with_machine = True
         self._throttle = Throttle()
         self._overrun_throttle = Throttle()
+
+    def use_hooks(self, hooks: Hooks) -> None:
+        """Call these hooks from now on; they and handlers no longer exclude each other."""
+        self._hooks = hooks
+        self._callback_group = CallbackGroup()
 
     def initialize(self) -> bool:
         """Initialize; returns whether it succeeded."""
@@ -127,11 +139,14 @@ class Lifecycle:
         """Stop after the current hook."""
         self._stopping.set()
         self._wake.stop()
+        for notify in self.on_stop:
+            notify()
 
     def set_period(self, period_ms: float) -> None:
         """Change the period; 0: event-driven."""
         self.period_ms = period_ms
-        self._wake.set()
+        if self.state is not LifecycleState.INITIALIZE:
+            self._wake.set()
 
     def declare_emergency(self, reason: str) -> None:
         """Stop calling `compute` until `end_emergency`."""
@@ -229,7 +244,7 @@ class Lifecycle:
         """Fire due timers of the state machine; stop the component when the machine has ended."""
         if self.machine:
             self.machine.fire_due()
-            if self.machine.ended:
+            if self.machine.ended and self.stops_with_machine:
                 log.info("the state machine reached its final state")
                 self.stop()
 
@@ -293,7 +308,8 @@ class Lifecycle:
         return self._hook_thread.call(partial(self._run_hook, hook, name, slot_timeout_s))
 
     def _run_hook(self, hook: Callable[[], None], name: str, slot_timeout_s: float | None) -> bool:
-        entered = self._callback_group.enter(slot_timeout_s)
+        group = self._callback_group
+        entered = group.enter(slot_timeout_s)
         try:
             hook()
         except ConfigError as error:
@@ -305,5 +321,5 @@ class Lifecycle:
             return False
         finally:
             if entered:
-                self._callback_group.leave()
+                group.leave()
         return True
