@@ -63,6 +63,7 @@ def legacy_text(
         states=list(states_of(component)),
         events=list(_events(component)),
         source=source,
+        window=bool(component.gui),
     )
 
 

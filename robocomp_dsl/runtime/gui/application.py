@@ -96,6 +96,7 @@ class WindowApplication:
         threading._register_atexit(stop)  # type: ignore[attr-defined]
         self._application.exec()
         stop()
+        self._application.processEvents()  # of `wait`, if the loop had ended before
         self._application.removeEventFilter(self._main_thread)
         self._dispatcher.aboutToBlock.disconnect(self._main_thread.release)
         QtCore.qInstallMessageHandler(None)

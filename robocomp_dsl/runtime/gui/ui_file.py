@@ -6,7 +6,6 @@ RoboComp: its `setupUi(window)` creates the widgets, and its attributes are name
 
 from __future__ import annotations
 
-import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -20,7 +19,6 @@ from robocomp_dsl.runtime.gui.qt import QtCore
 UI_FILES = ("mainUI.ui", "src/mainUI.ui")
 """The `.ui` file, relative to the folder of the worker; the first one that exists is used."""
 _UIC_TIMEOUT_S = 60.0
-_RESOURCE = re.compile(r"^import (\w+)_rc$", re.MULTILINE)
 
 
 class UiForm(Protocol):
@@ -43,12 +41,9 @@ def find_ui_file(folder: Path) -> Path:
 
 def load_form(path: Path) -> UiForm:
     """The form of a `.ui` file. Raises `WindowError`."""
-    code = _run_compiler("uic", ["-g", "python"], path)
     names: dict[str, Any] = {}
-    for resource in _RESOURCE.findall(code):
-        _load_resource(resource, path)
     try:
-        exec(compile(code, str(path), "exec"), names)  # noqa: S102 - the output of Qt's compiler
+        exec(compile(compile_form(path), str(path), "exec"), names)  # noqa: S102 - Qt's compiler
     except ImportError as error:
         message = f"{path}: a widget or resource of the window cannot be imported: {error}"
         raise WindowError(message) from error
@@ -58,16 +53,14 @@ def load_form(path: Path) -> UiForm:
     return create()
 
 
-def _load_resource(name: str, path: Path) -> None:
-    """Compile the pictures of `name.qrc` beside the `.ui` file, unless a module has them."""
-    module = f"{name}_rc"
-    source = path.with_name(f"{name}.qrc")
-    if module in sys.modules or not source.is_file() or path.with_name(f"{module}.py").is_file():
-        return
-    code = _run_compiler("rcc", ["-g", "python"], source)
-    loaded = type(sys)(module)
-    exec(compile(code, str(source), "exec"), vars(loaded))  # noqa: S102 - as above
-    sys.modules[module] = loaded
+def compile_form(path: Path) -> str:
+    """The module that Qt's compiler generates from a `.ui` file. Raises `WindowError`."""
+    return _run_compiler("uic", ["-g", "python"], path)
+
+
+def compile_resources(path: Path) -> str:
+    """The module with the files that a `.qrc` file names. Raises `WindowError`."""
+    return _run_compiler("rcc", ["-g", "python"], path)
 
 
 def _run_compiler(name: str, arguments: list[str], path: Path) -> str:

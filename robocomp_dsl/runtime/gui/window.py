@@ -12,6 +12,7 @@ from typing import Any
 
 from robocomp_dsl.runtime.component.component import Component
 from robocomp_dsl.runtime.errors import WindowError
+from robocomp_dsl.runtime.gui.form_finder import install_finder
 from robocomp_dsl.runtime.gui.qt import QtWidgets
 from robocomp_dsl.runtime.gui.ui_file import find_ui_file, load_form
 
@@ -27,12 +28,17 @@ class Window(Component):
 
     ui: Any  # of the class that Qt generates from the file
 
+    def __init_subclass__(cls, **rest: Any) -> None:
+        super().__init_subclass__(**rest)
+        install_finder(_folder_of(cls))
+
     def __init__(self) -> None:
+        if "ui" in vars(self):  # code from RoboComp calls it again
+            return
         super().__init__()
         if not isinstance(self, QtWidgets.QWidget):
             raise TypeError(f"{type(self).__name__} extends no window of Qt")
-        module = sys.modules.get(type(self).__module__)
-        path = find_ui_file(Path(getattr(module, "__file__", None) or "main.py").parent)
+        path = find_ui_file(_folder_of(type(self)))
         self.ui = load_form(path)
         try:
             self.ui.setupUi(self)
@@ -41,3 +47,10 @@ class Window(Component):
             message = f"{path}: the form does not fit the window of the component, a"
             raise WindowError(f"{message} {kind.__name__}: {error}") from None
         self.show()
+
+
+def _folder_of(cls: type) -> Path:
+    """The folder of the component to which a class belongs."""
+    module = sys.modules.get(cls.__module__)
+    folder = Path(getattr(module, "__file__", None) or "main.py").parent
+    return folder.parent if folder.name.endswith("_generated") else folder

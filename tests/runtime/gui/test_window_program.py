@@ -20,7 +20,7 @@ from robocomp_dsl.runtime import ComponentSpec, main
 from robocomp_dsl.runtime.gui.window import QtWidgets, Window
 
 class Worker(Window, QtWidgets.QWidget):
-    SPEC = ComponentSpec(name="w", period=5, middleware="inproc", has_window=True, watchdog=WATCHDOG)
+    SPEC = ComponentSpec("w", period=5, middleware="inproc", has_window=True, watchdog=WATCHDOG)
     def initialize(self):
         self.ui.pushButton.clicked.connect(self.on_click)
         QtCore.QTimer.singleShot(0, self.ui.pushButton.click)
