@@ -13,6 +13,7 @@ from typing import Any
 
 from robocomp_dsl.hardware.description.falling import carrier
 from robocomp_dsl.hardware.description.scene import ROOT, Device, Frame, Scene
+from robocomp_dsl.hardware.description.scene_edit import FIXED
 from robocomp_dsl.hardware.devices.camera import CameraSettings
 from robocomp_dsl.hardware.devices.errors import SceneError
 from robocomp_dsl.hardware.devices.laser import LaserSettings
@@ -45,8 +46,12 @@ class DeviceContext:
     board: JointBoard | None = None
 
     def carrier(self, frame: str) -> str:
-        """The nearest base or falling frame from `frame` upwards; else `frame`."""
-        return frame if frame == ROOT else carrier(frame, self.frames)
+        """The nearest base or falling frame from `frame` upwards; else `frame`.
+
+        The room is not a carrier: it is the root.
+        """
+        found = frame if frame == ROOT else carrier(frame, self.frames)
+        return ROOT if found in FIXED else found
 
 
 def _laser(site: DeviceContext, device: Device) -> Laser:
