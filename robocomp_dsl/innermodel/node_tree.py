@@ -95,8 +95,6 @@ class NodeTree:
 
     def add(self, node: innermodel.Node, parent: str) -> None:
         """Add a new node as the last child of a frame."""
-        if not isinstance(node.id, str) or not node.id:
-            raise InnerModelError(f"the id of a node is a non-empty string, not {node.id!r}")
         if node.id in self.entries:
             raise InnerModelError(f"there is a node `{node.id}` already")
         holder = self._holder(parent)

@@ -147,6 +147,25 @@ Right:
 """,
 )
 
+MISSING_WORLD_FILE = Code(
+    "RC788",
+    Severity.WARNING,
+    "meshes or pictures of the world are not found",
+    """\
+Worlds name their meshes and pictures by paths of the computer on which they were written. A file
+is searched by the end of its path: in the folders of `--files` and of ROBOCOMP_FILES, beside the
+world, and in the folders above it; at last, in the first two, without regard to upper and lower
+case. For `/home/robocomp/robocomp/files/osgModels/table.osg`, any of these finds it:
+
+    rcgen view room.xml --files ~/robocomp/files
+    export ROBOCOMP_FILES=~/robocomp/files:~/my_meshes
+
+A missing mesh is a marker of 2 cm, which touches nothing, is not seen by sensors, and does not
+count for what the view shows; a missing picture is grey. `rcgen check` reports missing files only
+with `--files` or ROBOCOMP_FILES.
+""",
+)
+
 INNERMODEL_TOO_LARGE = Code(
     "RC809",
     Severity.ERROR,

@@ -29,6 +29,7 @@ from robocomp_dsl.hardware.servants.serving import DevicePort, serve
 from robocomp_dsl.runtime import ServedPort
 from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.simulation.devices.skin_stream import SkinStream
+from robocomp_dsl.simulation.scene.found_files import with_found_files
 from robocomp_dsl.simulation.scene.scene_devices import build_devices, unmoved
 from robocomp_dsl.simulation.scene.scene_joints import JointBoard
 from robocomp_dsl.simulation.scene.scene_skins import build_skins
@@ -96,8 +97,12 @@ class Simulation:
 
     @classmethod
     def read(cls, path: Path, options: SimulationOptions = SimulationOptions()) -> Simulation:
-        """The scene in a JSON file written by `rcgen simulator`. Raises `SceneError`."""
-        return cls(Scene.of_data(read_data(path)["scene"], path.parent), options)
+        """The scene in a JSON file written by `rcgen simulator`. Raises `SceneError`.
+
+        Meshes and pictures that are not where they were are searched in ROBOCOMP_FILES.
+        """
+        scene = Scene.of_data(read_data(path)["scene"], path.parent)
+        return cls(with_found_files(scene, path.parent, log), options)
 
     # -- while the caller holds the lock ------------------------------------------------------
 
