@@ -210,9 +210,9 @@ def without_blind_sensors(scene: Scene, spec: Any, notes: list[str]) -> Scene:
         for device in scene.devices
         if device.kind == "touchsensor" and not feels(spec, body_name(device.frame))
     ]
-    kept = tuple(device for device in scene.devices if device not in blind)
+    feeling = tuple(device for device in scene.devices if device not in blind)
     notes += [f"`{device.id}` is left out: no shape in it collides" for device in blind]
-    return replace(scene, devices=kept) if blind else scene
+    return replace(scene, devices=feeling) if blind else scene
 
 
 def place_cameras(scene: Scene, spec: Any) -> None:
