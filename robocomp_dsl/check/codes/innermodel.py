@@ -1,4 +1,4 @@
-"""RC80x and RC784: the tags, attributes and values of InnerModel files."""
+"""RC80x, RC784 and RC785: the tags, attributes and values of InnerModel files."""
 
 from __future__ import annotations
 
@@ -194,5 +194,23 @@ Right:
     <touchsensor id="bump" type="bumper">
         <plane id="bump_plate" pz="200" size="400,100,20" collide="1"/>
     </touchsensor>
+""",
+)
+
+INNERMODEL_HOME = Code(
+    "RC785",
+    Severity.WARNING,
+    "`home` is outside the limits of the joint",
+    """\
+A joint starts at its `home`, which is also where the command to go to zero sends it. A simulation
+uses the nearest position between `min` and `max`, as RoboComp does.
+
+Wrong:
+
+    <joint id="elbow" min="-1" max="1" home="1.5"/>
+
+Right:
+
+    <joint id="elbow" min="-1" max="1" home="1"/>
 """,
 )

@@ -99,6 +99,9 @@ class InnerModelServant(Servant):
 
     def addTransform(self, item: str, engine: str, base: str, pose: Any) -> bool:
         """Add a frame; with the engine `bullet` it falls, unless a frame above it moves."""
+        if engine not in {"", "static", "bullet"}:
+            message = f"there is no engine `{engine}`: static or bullet"
+            raise NodeError(NodeErrorCode.ENGINE, message)
         physics = engine == "bullet"
         place, turn = _pose(pose)
         frame = Frame(item, base, place, turn, physics=physics, mass=_FALLING if physics else 0.0)
@@ -113,7 +116,7 @@ class InnerModelServant(Servant):
             raise NodeError(NodeErrorCode.VALUES, "a limit is no number")
         require_finite(mass=j.mass)
         place, turn = _pose(j.pose)
-        motion = Motion("hinge", axis, j.min, j.max)
+        motion = Motion("hinge", axis, j.min, j.max, home=turn["xyz".index(axis)])
         frame = Frame(item, base, place, turn, motion, mass=max(j.mass, 0.0))
         return self._rebuild(add_frame(self._scene, frame))
 
