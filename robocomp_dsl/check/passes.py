@@ -104,6 +104,10 @@ def check_innermodel(path: Path, workspace: Workspace, report: Report) -> InnerM
         _report_unreadable(path, error, report)
         return None
     check_innermodel_rules(body, report)
+    if workspace.world_folders is not None:
+        from robocomp_dsl.check.innermodel.world_files import check_world_files  # noqa: PLC0415
+
+        check_world_files(body, workspace.world_folders, report)
     return body
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from robocomp_dsl.hardware.kinematics.rotations import angles, pose_rows
+from robocomp_dsl.innermodel.attribute_values import checked_text
 from robocomp_dsl.innermodel.errors import InnerModelError
 from robocomp_dsl.innermodel.joints import InnerModelJoint, InnerModelPrismaticJoint
 from robocomp_dsl.innermodel.node_tree import POSE
@@ -107,7 +108,9 @@ class PoseUpdates(SharedState):
     def updateDisplay(self, displayId: str, texture: str) -> None:
         """Set the picture or colour of a display or plane."""
         plane = self._tree.node_of(displayId, innermodel.Plane, "a display")
-        self._tree.entries[displayId].node = replace(plane, texture=str(texture))
+        self._tree.entries[displayId].node = replace(
+            plane, texture=checked_text("texture", texture)
+        )
 
     @locked
     def getJoint(self, id: str) -> InnerModelJoint:

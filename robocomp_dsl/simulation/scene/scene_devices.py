@@ -203,6 +203,22 @@ def place_cameras(scene: Scene, spec: Any) -> None:
             _camera(site, device).place(spec)
 
 
+def unmoved(before: Scene, after: Scene, devices: Mapping[str, Any]) -> dict[str, Any]:
+    """The parts of the world that fit another scene: not those that are mounted elsewhere there."""
+    known, now = _mounts(before), _mounts(after)
+    return {id_: part for id_, part in devices.items() if known.get(id_) == now.get(id_)}
+
+
+def _mounts(scene: Scene) -> dict[str, tuple[Device, str]]:
+    """Each device that is simulated by itself, and the frame that carries it."""
+    site = DeviceContext({frame.id: frame for frame in scene.frames}, NoiseLevel())
+    return {
+        device.id: (device, site.carrier(device.frame))
+        for device in scene.devices
+        if device.kind in SINGLE
+    }
+
+
 def build_devices(
     scene: Scene, noise: NoiseLevel, existing: Mapping[str, Any] = MappingProxyType({})
 ) -> dict[str, Any]:
