@@ -21,7 +21,9 @@ ITEMS = (
     "reliable, best_effort, keep_all, latched, depth=N, deadline=MS, liveliness=MS,"
     f" thread_priority=1..{MAX_THREAD_PRIORITY}, and priority= with one of {', '.join(PRIORITIES)}"
 )
-FLAGS = {item.option: {item.field: item.flag} for item in QOS_ITEMS if item.flag is not None}
+FLAGS: dict[str, dict[str, Any]] = {
+    item.option: {item.field: item.flag} for item in QOS_ITEMS if item.flag is not None
+}
 
 
 def _positive(text: str) -> int:
