@@ -75,6 +75,7 @@ def migrate_component(
         report.add(codes.ALREADY_MIGRATED, Source(path, text).file_span, message)
         return None
     moved = MigratedComponent(folder, out, path.name, tree.name.text, Source(path, text).file_span)
+    moved.has_window = tree.gui is not None
     configs = list(_read_configs([*_config_paths(files), *extra_configs], report))
     divided = [(config, *split_ice_settings(config, report)) for config in configs]
     parameters = infer([(config, rest) for config, _, rest in divided], report)

@@ -25,33 +25,31 @@ from robocomp_dsl.model.interface import Module
 from robocomp_dsl.model.types import Dictionary, Enum, ExceptionType, Sequence, Struct
 
 STAND_INS = {
-    "Ice": frozenset(
-        (
-            "Exception",
-            "LocalException",
-            "UserException",
-            "ConnectionRefusedException",
-            "ConnectFailedException",
-            "ObjectNotExistException",
-            "NoEndpointException",
-            "TimeoutException",
-            "loadSlice",
-        )
-    ),
-    "QtCore": frozenset(("QMutex", "QMutexLocker", "QTimer", "Slot")),
-    "QtWidgets": frozenset(("QApplication",)),
-    "QtGui": frozenset[str](),
-    "QApplication": frozenset(("instance",)),
-    "QTimer": frozenset(("singleShot",)),
-    "QMutex": frozenset(("Recursive",)),
-    "QMutexLocker": frozenset[str](),
-    "Slot": frozenset[str](),
+    name: frozenset(attributes.split())
+    for name, attributes in {
+        "Ice": "Exception LocalException UserException ConnectionRefusedException TimeoutException"
+        " ConnectFailedException ConnectionLostException ObjectNotExistException loadSlice"
+        " NoEndpointException",
+        "QtCore": "QCoreApplication QMutex QMutexLocker QRecursiveMutex QTimer Signal Slot"
+        " pyqtSignal pyqtSlot",
+        "QtWidgets": "QApplication",
+        "QtGui": "QApplication",
+        "QApplication": "instance quit",
+        "QTimer": "start stop setInterval interval isActive setSingleShot isSingleShot"
+        " setTimerType timeout singleShot",
+        "QMutex": "Recursive NonRecursive lock tryLock unlock",
+        "QMutexLocker": "unlock relock mutex",
+        "Signal": "",
+        "Slot": "",
+    }.items()
 }
 """The names of Ice and Qt that the module provides, and the attributes of each."""
 
 
-def legacy_text(component: Component, parameters: InferredParameters) -> str:
-    """The module for the old code of `component`."""
+def legacy_text(
+    component: Component, parameters: InferredParameters, *, source: bool = False
+) -> str:
+    """The module for the old code of `component`; `source`: its modules are in `src/`."""
     called = names_of(component)
     return render(
         "migrate/legacy.py.jinja",
@@ -64,6 +62,8 @@ def legacy_text(component: Component, parameters: InferredParameters) -> str:
         machine=_machine_name(component),
         states=list(states_of(component)),
         events=list(_events(component)),
+        source=source,
+        window=bool(component.gui),
     )
 
 

@@ -29,7 +29,9 @@ def names_for(component: Component, legacy: str) -> LegacyNames:
     handlers = {operation.name: name for (_, operation), name in called.handlers.items()}
     modules = frozenset(module.name for module in modules_of(component))
     states = frozenset(states_of(component)) if component.statemachine else None
-    return LegacyNames(legacy, called.package, modules, handlers, states)
+    return LegacyNames(
+        legacy, called.package, modules, handlers, states, has_window=bool(component.gui)
+    )
 
 
 def adapt_module(user: UserModule, names: LegacyNames, report: Report) -> str:

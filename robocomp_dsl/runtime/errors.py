@@ -116,5 +116,9 @@ class MonitorError(Exception):
     """A monitor that cannot be loaded, or does not fit to its connection; the component stops."""
 
 
+class WindowError(Exception):
+    """The window of a component cannot be created; the message has the file."""
+
+
 class NotImplementedOperation(NotImplementedError):
     """The component declares the interface but has no method for this operation."""

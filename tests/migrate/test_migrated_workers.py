@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -129,10 +127,8 @@ def test_migrated_state_machine_runs(rcgen, tmp_path: Path) -> None:
     (folder / "src" / "specificworker.py").write_text(STATE_WORKER)
     done = rcgen("migrate", folder, "--format", "concise")
     assert done.code == 0, done.err
-    run = subprocess.run(
-        [sys.executable, "main.py", "--middleware", "inproc"],
-        cwd=tmp_path / "states-migrated", capture_output=True, text=True, check=False, timeout=60,
-    )  # fmt: skip
-    assert run.returncode == 0, run.stderr
-    expected = ["start", "first 1", "first 2", "first 3", "second", "over"]
-    assert run.stdout.splitlines() == expected, run.stderr
+    with running(tmp_path / "states-migrated", "--middleware", "inproc") as states:
+        states.wait_for("over")  # RoboComp's components go on when their machine has ended
+        assert states.stop() == 0
+    lines = [line for line in states.lines if " | " not in line]
+    assert lines == ["start", "first 1", "first 2", "first 3", "second", "over"]

@@ -28,6 +28,7 @@ IMPORTS = [
     ("from RoboCompLaser import A as B", "from old_generated.interfaces import A as B"),
     ("from PySide import QtGui, QtCore", "from legacy import QtGui, QtCore"),
     ("from PySide2.QtCore import QTimer, Qt", "from legacy import QTimer"),
+    ("from PySide2.QtCore import QTimer\nt = QTimer()", "from legacy import QTimer\nt = QTimer()"),
     ("try:\n    from PyQt5.QtGui import QColor\nexcept E:\n    pass",
      "try:\n    pass\nexcept E:\n    pass"),
     ("if 1: import Ice # é\r\nx = 'é'\r\n", "if 1: from legacy import Ice # é\r\nx = 'é'\r\n"),
@@ -36,8 +37,6 @@ IMPORTS = [
 
 STAYING = [
     "import Ice\nc = Ice.initialize()",
-    "from PySide2.QtCore import QTimer\nt = QTimer()",
-    "from PySide2 import QtCore\nt = QtCore.QTimer()",
     "from PySide2 import QtCore\nt = QtCore.Qt.Key_A",
     "from PySide2.QtWidgets import *",
     "from PySide2.QtWidgets import QLabel\nl = QLabel()",
@@ -78,7 +77,7 @@ def test_adapt_module_keeps_other_imports(text: str, tmp_path: Path) -> None:
 
 
 def test_adapt_module_reports_unsupported_star_import(tmp_path: Path) -> None:
-    _, report = rewritten("from genericworker import *\nt = QtCore.QTimer()\n", tmp_path)
+    _, report = rewritten("from genericworker import *\nt = QtCore.QThread()\n", tmp_path)
     assert sorted(finding.code.id for finding in report) == ["RC954", "RC955"]
 
 

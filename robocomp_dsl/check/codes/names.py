@@ -315,19 +315,23 @@ Better: delete it, and import the library in your own code.
 """,
 )
 
-NO_GUI = Code(
-    "RC217",
+FORM_MISMATCH = Code(
+    "RC411",
     Severity.WARNING,
-    "no code is generated for a user interface",
+    "the form does not fit the window",
     """\
-The older tool opened a Qt window of this class in every component with a `gui`. This tool generates
-the component without it; other tools can show and change its parameters and state.
+`gui` names the class of the window, and `mainUI.ui` contains its widgets. The form of a
+`QMainWindow` has a central widget and menus, which other windows lack; a layout of another form has
+no place in a `QMainWindow`. So both must be for the same class; a `QDialog` also takes the form of
+a `QWidget`.
 
-Without effect:
+Wrong, where `mainUI.ui` begins with `<widget class="QMainWindow" …>`:
 
     gui Qt(QWidget);
 
-Better: delete it, and open a window in the code of the component if you need one.
+Right:
+
+    gui Qt(QMainWindow);
 """,
 )
 

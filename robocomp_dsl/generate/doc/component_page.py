@@ -181,7 +181,7 @@ def _type(parameter: Parameter) -> Inlines:
         return (PlainText("one of "), *join_inlines(map(inline_code, parameter.choices)))
     if parameter.kind is Kind.GROUP:
         return plain_text(params.takes(parameter).removeprefix("a "))
-    return inline_code(parameter.kind.value)
+    return inline_code(parameter.type_name)
 
 
 def _default(parameter: Parameter) -> Inlines:

@@ -72,7 +72,8 @@ class WorkerCode(ValueRecord):
     """Both classes and the component's own data.
 
     `ports` are lists by keyword of `ComponentSpec`, `called` has the proxies' attributes and
-    classes; `watchdog` is a literal in s, empty for none; `about` and `rows` are for the README.
+    classes; `watchdog` is a literal in s, empty for none; `about` and `rows` are for the README;
+    `window` is the class of Qt that the worker extends, empty without a window.
     """
 
     title: str
@@ -93,6 +94,7 @@ class WorkerCode(ValueRecord):
     about: tuple[str, ...]
     rows: tuple[tuple[str, str, str], ...]
     machine: MachineCode | None
+    window: str
 
 
 def worker_code(component: Component, py_names: PythonNames, middleware: str) -> WorkerCode:
@@ -124,6 +126,7 @@ def worker_code(component: Component, py_names: PythonNames, middleware: str) ->
         about=("", *about) if (about := literals.lines(component.doc)) else (),
         rows=tuple(_row(p, py_names) for p in component.ports),
         machine=machine_of(component),
+        window=component.gui,
     )
 
 

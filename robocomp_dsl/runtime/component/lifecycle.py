@@ -15,10 +15,12 @@ import threading
 import time
 from collections.abc import Callable
 from enum import StrEnum
+from functools import partial
 from typing import Protocol
 
 from robocomp_dsl.runtime.clock import CLOCK_LOST, NANO, TIME_DIGITS, Clock, WakeEvent
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.hook_thread import HookThread
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.component.user_errors import describe_error, log_error, log_failure
@@ -63,21 +65,26 @@ class Hooks(Protocol):
 
 
 class Lifecycle:
-    """Runs one component; `publish_state` receives every state."""
+    """Runs one component; `publish_state` receives every state.
+
+    `on_stop` are called at the request to stop, while a hook may still run; `stops_with_machine`
+    says whether the component ends when its state machine has.
+    """
 
     def __init__(
         self,
         hooks: Hooks,
         period_ms: float,
         clock: Clock,
-        callback_group: CallbackGroup,
+        hook_thread: HookThread,
         statistics: Statistics,
         publish_state: Callable[[LifecycleState], None],
     ) -> None:
         self._hooks = hooks
         self.period_ms = period_ms
         self._clock = clock
-        self._callback_group = callback_group
+        self._hook_thread = hook_thread
+        self._callback_group = hook_thread.callback_group
         self.statistics = statistics
         self._publish_state = publish_state
         self.machine: Machine | None = None
@@ -88,8 +95,15 @@ class Lifecycle:
         self._declared = False
         self._finalize_lock = threading.Lock()
         self.finalized = threading.Event()
+        self.on_stop: list[Callable[[], None]] = []
+        self.stops_with_machine = True
         self._throttle = Throttle()
         self._overrun_throttle = Throttle()
+
+    def use_hooks(self, hooks: Hooks) -> None:
+        """Call these hooks from now on; they and handlers no longer exclude each other."""
+        self._hooks = hooks
+        self._callback_group = CallbackGroup()
 
     def initialize(self) -> bool:
         """Initialize; returns whether it succeeded."""
@@ -125,11 +139,14 @@ class Lifecycle:
         """Stop after the current hook."""
         self._stopping.set()
         self._wake.stop()
+        for notify in self.on_stop:
+            notify()
 
     def set_period(self, period_ms: float) -> None:
         """Change the period; 0: event-driven."""
         self.period_ms = period_ms
-        self._wake.set()
+        if self.state is not LifecycleState.INITIALIZE:
+            self._wake.set()
 
     def declare_emergency(self, reason: str) -> None:
         """Stop calling `compute` until `end_emergency`."""
@@ -227,7 +244,7 @@ class Lifecycle:
         """Fire due timers of the state machine; stop the component when the machine has ended."""
         if self.machine:
             self.machine.fire_due()
-            if self.machine.ended:
+            if self.machine.ended and self.stops_with_machine:
                 log.info("the state machine reached its final state")
                 self.stop()
 
@@ -252,9 +269,12 @@ class Lifecycle:
         self._transition_to(LifecycleState.COMPUTE)
 
     def _run_guarded(self, action: Callable[[], None]) -> None:
-        try:
+        def run() -> None:
             with self._callback_group:
                 action()
+
+        try:
+            self._hook_thread.call(run)
         except BaseException as error:
             if self._stopping.is_set():
                 return
@@ -285,7 +305,11 @@ class Lifecycle:
     def _call_hook(
         self, hook: Callable[[], None], name: str, slot_timeout_s: float | None = None
     ) -> bool:
-        entered = self._callback_group.enter(slot_timeout_s)
+        return self._hook_thread.call(partial(self._run_hook, hook, name, slot_timeout_s))
+
+    def _run_hook(self, hook: Callable[[], None], name: str, slot_timeout_s: float | None) -> bool:
+        group = self._callback_group
+        entered = group.enter(slot_timeout_s)
         try:
             hook()
         except ConfigError as error:
@@ -297,5 +321,5 @@ class Lifecycle:
             return False
         finally:
             if entered:
-                self._callback_group.leave()
+                group.leave()
         return True
