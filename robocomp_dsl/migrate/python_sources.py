@@ -95,7 +95,8 @@ def _converted(
     except CannotConvert as error:
         if _parses(text):
             return user_module.parsed(Source(path, text), data, encoding)
-        report.add(codes.UNREADABLE_PYTHON, Source(path, text).file_span, f"`{path.name}`: {error}")
+        span = _line_span(Source(path, text), error.line)
+        report.add(codes.UNREADABLE_PYTHON, span, f"Python cannot read `{path.name}`: {error}")
         return None
     source = Source(path, result.text)
     if result.text != text:

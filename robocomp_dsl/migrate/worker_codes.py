@@ -1,11 +1,22 @@
-"""The findings about code of old workers that does not run as it did.
+"""The findings about old components and deployments that do not run as they did.
 
-An error is code that the new component cannot run as before; it is reported with its line.
+An error is what the new component cannot do as before; it is reported with its line.
 """
 
 from __future__ import annotations
 
 from robocomp_dsl.diagnostics import Code, Severity
+
+ONLY_STAND_INS = Code(
+    "RC945",
+    Severity.ERROR,
+    "a deployment consists of stand-ins only",
+    """None of the processes of the manager's file was matched with the folder of a component, so
+the deployment can be checked, but does nothing. Name the folders, too; a process is matched by its
+folder, its program or its alias:
+
+    rcgen migrate manager.xml laser/ base/ follow/ -o robot""",
+)
 
 MISSING_MODULE = Code(
     "RC895",
