@@ -31,10 +31,13 @@ STAND_INS = {
         " ConnectFailedException ConnectionLostException ObjectNotExistException loadSlice"
         " NoEndpointException",
         "QtCore": "QCoreApplication QMutex QMutexLocker QRecursiveMutex QTimer Signal Slot"
-        " pyqtSignal pyqtSlot",
-        "QtWidgets": "QApplication",
-        "QtGui": "QApplication",
-        "QApplication": "instance quit",
+        " pyqtSignal pyqtSlot qApp",
+        "QtWidgets": "QApplication qApp",
+        "QtGui": "QApplication qApp",
+        "QApplication": "instance quit exit processEvents",
+        "QCoreApplication": "instance quit exit processEvents",
+        "QRecursiveMutex": "lock tryLock unlock",
+        "qApp": "quit exit processEvents aboutToQuit",
         "QTimer": "start stop setInterval interval isActive setSingleShot isSingleShot"
         " setTimerType timeout singleShot",
         "QMutex": "Recursive NonRecursive lock tryLock unlock",

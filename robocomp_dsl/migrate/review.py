@@ -18,7 +18,7 @@ from robocomp_dsl.migrate import worker_codes
 from robocomp_dsl.migrate.imports import GENERATED_MODULES, QT, span_of
 
 HOOKS = frozenset(
-    """initialize emergency restore finalize deadline_missed publisher_lost
+    """emergency restore finalize deadline_missed publisher_lost
     publisher_alive""".split()  # noqa: SIM905
 )
 """Methods of a component that the runtime calls, and RoboComp did not."""

@@ -30,7 +30,10 @@ def names_for(component: Component, legacy: str) -> LegacyNames:
     handlers = {operation.name: name for (_, operation), name in called.handlers.items()}
     modules = frozenset(module.name for module in modules_of(component))
     states = frozenset(states_of(component)) if component.statemachine else None
-    return LegacyNames(legacy, called.package, modules, handlers, states)
+    servants = frozenset(
+        ["commonbehaviorI", *(f"{port.interface.name.lower()}I" for port in component.ports)]
+    )
+    return LegacyNames(legacy, called.package, modules, handlers, states, servants)
 
 
 def adapt_module(user: UserModule, names: LegacyNames, report: Report, first_line: str = "") -> str:

@@ -44,8 +44,8 @@ HOOK_NAME = Code(
     "RC897",
     Severity.ERROR,
     "a method has the name of a hook",
-    """RoboComp never called `initialize`, `emergency`, `restore`, `finalize` and the other hooks
-of the new component by itself; now they are called at these moments. Rename the method, and its
+    """RoboComp never called `emergency`, `restore`, `finalize` and the other hooks of the new
+component by itself; now they are called at these moments. Rename the method, and its
 calls, in the new `specificworker.py`.""",
 )
 

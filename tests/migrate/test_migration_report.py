@@ -39,7 +39,9 @@ def test_report_paths_are_relative_to_it(rcgen, old: Path, tmp_path: Path) -> No
     out = tmp_path / "new"
     rcgen("migrate", old / "follow", "-o", out)
     text = (out / "MIGRATION.md").read_text()
-    listed = re.findall(r"^- `([^`]+?)(?::\d+)?` \S", text.partition("## How the old")[0], re.MULTILINE)
+    listed = re.findall(
+        r"^- `([^`]+?)(?::\d+)?` \S", text.partition("## How the old")[0], re.MULTILINE
+    )
     listed += re.findall(r"^\| `([^`(*]+)` \|", text, re.MULTILINE)
     assert len(listed) > 20
     assert [path for path in listed if not (out / path).exists()] == []
