@@ -18,6 +18,7 @@ from robocomp_dsl.generate.regeneration.update import update_user_files
 from robocomp_dsl.migrate.ddsl import PEERS
 from robocomp_dsl.migrate.migration import MigrationPlan
 from robocomp_dsl.migrate.migration_report import FILE, ReportContent, report_text
+from robocomp_dsl.migrate.review_ports import add_as_errors
 from robocomp_dsl.migrate.worker_codes import MISSING_MODULE
 
 
@@ -29,7 +30,10 @@ def generate_components(
         path = out / place / moved.description
         component = check_cdsl(path, Workspace(folders), report)
         if moved.component is not None and component is not None:
-            yield place, update_user_files(path.parent, component, files_of(component), report)
+            found = Report()
+            files = update_user_files(path.parent, component, files_of(component), found)
+            add_as_errors(found, report)
+            yield place, files
 
 
 def check_migrated_files(

@@ -19,6 +19,7 @@ from robocomp_dsl.migrate.infer import InferredParameters
 from robocomp_dsl.migrate.legacy import interface_names, legacy_text
 from robocomp_dsl.migrate.python_sources import read_modules
 from robocomp_dsl.migrate.review import bare_names, review_modules
+from robocomp_dsl.migrate.review_ports import review_ports
 from robocomp_dsl.migrate.worker import adapt_module, names_for, period_of
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.regular_file import open_regular
@@ -119,14 +120,15 @@ def _review(
         ): modules[file.path]
         for file in module_files
     }
-    paths = [file.relative for file in files]
+    paths = [file.relative for file in files if file.category is not FileCategory.REPLACED]
     local_names = {path.stem for path in paths if path.suffix in (".py", ".so", ".pyd")}
     local_names |= {part for path in paths for part in path.parent.parts}
+    review_ports(user, component, report)
     review_modules(
         user,
         {name: module for name, module in by_name.items() if module},
         interface_names(component),
-        frozenset(local_names),
+        frozenset(local_names | names_for(component, "").servants),
         report,
     )
 

@@ -138,3 +138,27 @@ def test_migrate_adds_no_state_stubs_for_old_methods(rcgen, tmp_path: Path) -> N
     assert "def state_a" not in text
     assert "def state_b" not in text
     assert "def state_c" in text
+
+
+def test_migrate_reports_calls_that_interfaces_lack(rcgen, tmp_path: Path) -> None:
+    worker = HEAD + (
+        "    def compute(self):\n"
+        "        self.laser_proxy.getRays()\n"
+        "        self.camera_proxy.getImage()\n"
+        "        self.own_proxy = self.JoystickAdapter_helper()\n\n"
+        "    def JoystickAdapter_sendData(self, data, more):\n"
+        "        pass\n\n"
+        "    def JoystickAdapter_reset(self):\n"
+        "        pass\n\n"
+        "    def JoystickAdapter_helper(self):\n"
+        "        return self.own_proxy\n"
+    )
+    ports = "requires Laser; subscribesTo JoystickAdapter;"
+    folder = write_component(tmp_path / "eyes", {"src/specificworker.py": worker}, ports)
+    cdsl = folder / "eyes.cdsl"
+    cdsl.write_text(cdsl.read_text().replace('import "subscribesTo.idsl";\n', ""))
+    done = rcgen("migrate", folder, "--format", "concise")
+    assert done.code == 1
+    rows = [row for row in done.err.splitlines() if "error[RC896]" in row]
+    lines = sorted(int(row.partition("specificworker.py:")[2].split(":")[0]) for row in rows)
+    assert lines == [12, 13, 16, 19], done.err
