@@ -20,3 +20,12 @@ class MissingExtra(ModuleNotFoundError):
             name=module,
         )
         self.extra = extra
+
+
+class UnusableExtra(MissingExtra):
+    """The library of an extra is installed but cannot be used; the message says what to do."""
+
+    def __init__(self, purpose: str, reason: str, command: str) -> None:
+        """`command` installs what is needed."""
+        message = f"{purpose} cannot start: {reason}; install it: {command}"
+        ModuleNotFoundError.__init__(self, message)

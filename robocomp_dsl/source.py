@@ -58,17 +58,7 @@ class Source(Record):
 
         Raises `UnreadableSource` if it is missing, a folder, too large or not a text file.
         """
-        try:
-            with open_regular(path) as stream:
-                data = stream.read(MAX_BYTES + 1)
-        except FileNotFoundError:
-            raise UnreadableSource("the file does not exist") from None
-        except IsADirectoryError:
-            raise UnreadableSource("this is a folder, not a file") from None
-        except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or str(error)
-            raise UnreadableSource(f"the file cannot be read: {reason}") from None
-        return cls(path, decode(data))
+        return cls(path, decode(read_source_bytes(path)))
 
     @property
     def source(self) -> Source:
@@ -204,11 +194,33 @@ class Span:
         return f"Span({self.source.path.name}, {self.start}, {self.end})"
 
 
+def read_source_bytes(path: Path) -> bytes:
+    """The content of the file at `path`, or its first `MAX_BYTES` and one byte.
+
+    Raises `UnreadableSource` if it is missing, a folder or no regular file.
+    """
+    try:
+        with open_regular(path) as stream:
+            return stream.read(MAX_BYTES + 1)
+    except FileNotFoundError:
+        raise UnreadableSource("the file does not exist") from None
+    except IsADirectoryError:
+        raise UnreadableSource("this is a folder, not a file") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise UnreadableSource(f"the file cannot be read: {reason}") from None
+
+
 def decode(data: bytes) -> str:
     """Decode `data` as UTF-8, or as the XML declaration says; a BOM is removed.
 
     Raises `UnreadableSource` if it is too large, binary or in another encoding.
     """
+    return decode_with_encoding(data)[0]
+
+
+def decode_with_encoding(data: bytes) -> tuple[str, str]:
+    """As `decode`, with the name of the encoding: `utf-8-sig` if there is a BOM."""
     if len(data) > MAX_BYTES:
         raise UnreadableSource(f"the file is larger than {MAX_BYTES // 1024 // 1024} MB")
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
@@ -219,7 +231,7 @@ def decode(data: bytes) -> str:
         tool = "Git LFS" if pointer[1] else "git-annex"
         raise UnreadableSource(f"this is a {tool} pointer; the file content was not downloaded")
     try:
-        return data.decode("utf-8-sig")
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         declared = _DECLARED.match(data[:200].decode("ascii", "replace"))
         name = _LEGACY.get(declared[3].lower()) if declared else None
@@ -229,7 +241,8 @@ def decode(data: bytes) -> str:
                 f"the file is not UTF-8: byte 0x{data[error.start]:02x} in line {line}; "
                 "save it as UTF-8"
             ) from None
-        return data.decode(name, "replace")
+        return data.decode(name, "replace"), name
+    return text, "utf-8-sig" if data.startswith(b"\xef\xbb\xbf") else "utf-8"
 
 
 def declare_utf8(text: str) -> str:

@@ -9,11 +9,18 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from reflex_generated.interfaces import ArmLimits, ArmState, Event, Field
+from reflex_generated.interfaces import (
+    ArmLimits,
+    ArmState,
+    Event,
+    Field,
+    Limitation,
+    LimitCause,
+)
 
 from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.errors import InvalidField
-from robocomp_dsl.tactile.reflex import law
+from robocomp_dsl.tactile.reflex import law, withdrawal
 from robocomp_dsl.tactile.reflex.withdrawal import ArmProperties
 
 
@@ -66,8 +73,8 @@ def field_to_message(field: law.Field, part: str) -> Field:
     return Field(field.name, f"{part}/{field.limb}", x, y, z, field.radius, field.motion)
 
 
-def event(response: law.Response, part: str, time: float) -> Event:
-    """The event of a field's response to a touch at `time` [s]."""
+def event(response: law.Response, motion: Floats, part: str, time: float) -> Event:
+    """The event of a field's response to a touch at `time` [s]; `motion` (n,) is caused by it."""
     x, y, z = response.stimulus.centre.tolist()
     return Event(
         time=time,
@@ -79,5 +86,19 @@ def event(response: law.Response, part: str, time: float) -> Event:
         distance=response.distance,
         force=response.stimulus.force,
         gain=response.gain,
-        motion=response.motion,
+        motion=motion,
     )
+
+
+def cause_to_message(cause: withdrawal.LimitCause) -> LimitCause:
+    """The cause in the words of Reflex.idsl."""
+    return {
+        withdrawal.LimitCause.JOINT_LIMITS: LimitCause.JointLimits,
+        withdrawal.LimitCause.OWN_BODY: LimitCause.OwnBody,
+        withdrawal.LimitCause.NO_DIRECTION: LimitCause.NoDirection,
+    }[cause]
+
+
+def limitation(cause: LimitCause, field: str, time: float, pause: float = 0.0) -> Limitation:
+    """The event of a limited withdrawal from a touch at `time` [s]."""
+    return Limitation(time=time, cause=cause, field=field, pause=pause)

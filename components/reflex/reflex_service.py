@@ -5,6 +5,7 @@ In: calls of Reflex.idsl, live parameters. Out: replies, and a reconfigured `sen
 
 from __future__ import annotations
 
+from body import RobotBody
 from messages import field_to_message, receptive_fields
 from reflex_generated.genericworker import GenericWorker
 from reflex_generated.interfaces import Fields, ReflexState, RoboCompReflex_NotPossible, Statistics
@@ -21,6 +22,7 @@ class ReflexService(GenericWorker):
     sense: ReflexPerception
     part: str
     size: int
+    body: RobotBody
     withdrawals = 0
 
     # implements RoboCompReflex::Reflex
@@ -36,6 +38,7 @@ class ReflexService(GenericWorker):
             framesWrongLength=gate.rejected[FrameFault.WRONG_LENGTH],
             framesOutOfOrder=gate.rejected[FrameFault.OUT_OF_ORDER],
             framesOtherGeometry=gate.rejected[FrameFault.OTHER_GEOMETRY],
+            selfContacts=self.body.self_contacts.count if self.body.self_contacts else 0,
         )
 
     def Reflex_getFields(self) -> Fields:
@@ -62,7 +65,7 @@ class ReflexService(GenericWorker):
 
     # Live parameters.
 
-    def law(self, changes: dict[str, float | int | str | bool] | None = None) -> Law:
+    def force_law(self, changes: dict[str, float | int | str | bool] | None = None) -> Law:
         """The law of the parameters, with `changes`. Raises `ParameterRejected`."""
         forces = {"threshold": self.params.threshold, "full": self.params.full, **(changes or {})}
         threshold, full = float(forces["threshold"]), float(forces["full"])
@@ -74,19 +77,27 @@ class ReflexService(GenericWorker):
 
     def will_set(self, changes: dict[str, float | int | str | bool]) -> None:
         """Reject a `threshold` that is not less than `full`."""
-        self.law(changes)
+        self.force_law(changes)
 
     def did_set_threshold(self, _old: float) -> None:
         """Use the new law."""
-        self.sense.use_law(self.law(), self.params.reach)
+        self.sense.use_law(self.force_law(), self.params.reach)
 
     def did_set_full(self, _old: float) -> None:
         """Use the new law."""
-        self.sense.use_law(self.law(), self.params.reach)
+        self.sense.use_law(self.force_law(), self.params.reach)
 
     def did_set_reach(self, _old: float) -> None:
         """Use the new distance of neighbours."""
-        self.sense.use_law(self.law(), self.params.reach)
+        self.sense.use_law(self.force_law(), self.params.reach)
+
+    def did_set_law(self, _old: str) -> None:
+        """Use the new law of withdrawal."""
+        self.body.use_law(self.params.law, self.params.clearance)
+
+    def did_set_clearance(self, _old: float) -> None:
+        """Keep the new distance."""
+        self.body.use_law(self.params.law, self.params.clearance)
 
     def did_set_arm_timeout(self, _old: float) -> None:
         """Set the time-out of calls to the arm."""

@@ -9,22 +9,25 @@ from __future__ import annotations
 from math import inf
 
 import numpy as np
+from body import RobotBody, load_kinematics
 from health_monitor import HealthMonitor
-from messages import event, pose
-from reflex_generated.interfaces import ArmState, Frame, ReflexState
+from messages import cause_to_message, event, limitation, pose
+from obstacle import ObstacleMonitor
+from reflex_generated.interfaces import ArmState, Frame, LimitCause, ReflexState
 
 from robocomp_dsl.tactile.arrays import Floats
-from robocomp_dsl.tactile.description.part_file import load_arm_part
+from robocomp_dsl.tactile.description.part_file import load_arm
 from robocomp_dsl.tactile.errors import RejectedFrame
 from robocomp_dsl.tactile.reflex.law import Response
 from robocomp_dsl.tactile.reflex.perception import ReflexPerception
+from robocomp_dsl.tactile.reflex.receptive_fields import Ignored
 from robocomp_dsl.tactile.reflex.withdrawal import (
     Withdrawal,
-    add_responses,
     duration,
     initial,
     max_joint_distance,
     new_responses,
+    synchronised,
 )
 
 
@@ -36,9 +39,14 @@ class SpecificWorker(HealthMonitor):
 
     def initialize(self) -> None:
         """Read the fields."""
-        part = load_arm_part(self.params.description, self.params.part, self.config_file)
+        robot, part = load_arm(self.params.description, self.params.part, self.config_file)
         self.part, self.size = part.name, len(part.servos)
-        self.sense = ReflexPerception(part.name, part.fields, self.law(), self.params.reach)
+        self.sense = ReflexPerception(part.name, part.fields, self.force_law(), self.params.reach)
+        kinematics = load_kinematics(robot, part.name)
+        self.body = RobotBody(kinematics, self.params.law, self.params.clearance)
+        if kinematics is None and self.params.law == "pose":
+            self.log.warning("the description has no `model`: the law is `fixed`")
+        self.obstacle, self.reported = ObstacleMonitor(), (-inf, "")
         self.pose = self.goal = np.zeros(self.size)
         self.touched = self.since = -inf
         self.until = inf
@@ -63,6 +71,8 @@ class SpecificWorker(HealthMonitor):
 
     def on_enter_Watching(self) -> None:
         """The arm has returned, as far as possible."""
+        if self.away:
+            self.obstacle.returned = self.clock.now()
         self.away = False
         self._publish_state(ReflexState.Watching)
 
@@ -86,8 +96,9 @@ class SpecificWorker(HealthMonitor):
         self._publish_state(ReflexState.Holding)
 
     def state_Holding(self) -> None:
-        """Wait until the arm has not been touched for the hold time."""
-        if self.clock.now() - max(self.touched, self.since) >= self.params.hold:
+        """Wait until the arm has not been touched for the hold time, longer with an obstacle."""
+        pause = self.obstacle.pause(self.params.hold, self.params.longest_pause)
+        if self.clock.now() - max(self.touched, self.since) >= pause:
             self.machine.send("released")
 
     def on_enter_Returning(self) -> None:
@@ -108,7 +119,9 @@ class SpecificWorker(HealthMonitor):
             return  # without the geometry frames cannot be validated
         now, forces = self.clock.now(), np.asarray(frame.force, dtype=np.float64)
         try:
-            responses = self.sense.process_frame(frame.sequence, frame.time, frame.geometry, forces)
+            responses = self.sense.process_frame(
+                frame.sequence, frame.time, frame.geometry, forces, self._self_contacts()
+            )
         except RejectedFrame as rejected:
             self.heartbeats.fault = rejected.fault.value
             if self.sense.validator.rejected[rejected.fault] == 1:
@@ -117,6 +130,7 @@ class SpecificWorker(HealthMonitor):
         self.heartbeats.on_frame(now)
         if responses and self.params.enabled:
             self.touched = now
+            self.obstacle.on_touch(now, is_returning=self.machine.is_in("Returning"))
             self._withdraw(responses, frame.time, now)
 
     # subscribesTo RoboCompGenericArm::GenericArmState
@@ -134,14 +148,22 @@ class SpecificWorker(HealthMonitor):
         before, arm = self._current_withdrawal(now), self.arm
         if before is None or arm is None:
             return
-        after = add_responses(before, responses, arm)
-        if max_joint_distance(after.goal, before.goal) < self.params.least_change:
+        after = self.body.law.extend(before, responses, self.pose, arm)
+        if after is before:
             return
-        self.withdrawals += before is not self.withdrawal
+        self._report_limit(after, responses[0], time)
+        if max_joint_distance(after.goal, before.goal) < self.params.least_change:
+            if after.limit is not None:
+                self.withdrawal = after  # planned once, although the arm cannot move
+            return
+        if before is not self.withdrawal or not self._has_moved(before):
+            self.withdrawals += 1
+            self._record_obstacle(responses[0], time)
         self.withdrawal = after
         self.machine.send("touched")
         for response in new_responses(before, after):
-            self.reflexevents_proxy.reflex(event(response, self.part, time))
+            motion = self.body.law.motion(response, after, self.pose)
+            self.reflexevents_proxy.reflex(event(response, motion, self.part, time))
 
     def _current_withdrawal(self, now: float) -> Withdrawal | None:
         """The withdrawal that a touch extends; None if none may start now."""
@@ -152,12 +174,41 @@ class SpecificWorker(HealthMonitor):
         if last is None or now - last.began >= self.params.refractory:
             return initial(self.pose, now)
         in_progress = self.machine.is_in("Withdrawing") or self.machine.is_in("Holding")
-        return last if in_progress else None
+        return last if in_progress or not self._has_moved(last) else None
+
+    def _has_moved(self, withdrawal: Withdrawal) -> bool:
+        return max_joint_distance(withdrawal.goal, withdrawal.origin) >= self.params.least_change
+
+    def _self_contacts(self) -> Ignored | None:
+        """Whether a touch is a contact of the robot with itself, at the current pose."""
+        if self.body.self_contacts is None:
+            return None
+        self.body.self_contacts.at(self.pose)
+        return self.body.self_contacts.includes
+
+    def _report_limit(self, withdrawal: Withdrawal, response: Response, time: float) -> None:
+        """Publish and log what makes the withdrawal smaller; each cause once per withdrawal."""
+        limit = withdrawal.limit
+        if limit is None or self.reported == (withdrawal.began, limit.name):
+            return
+        self.reported = (withdrawal.began, limit.name)
+        field = response.field.name
+        self.log.warning("withdrawal from `%s` limited: %s", field, limit.value)
+        self.reflexevents_proxy.limited(limitation(cause_to_message(limit), field, time))
+
+    def _record_obstacle(self, response: Response, time: float) -> None:
+        """Wait longer before the next return if an obstacle has stayed."""
+        if not self.obstacle.on_withdrawal():
+            return
+        field = response.field.name
+        pause = self.obstacle.pause(self.params.hold, self.params.longest_pause)
+        self.log.warning("an obstacle stays at `%s`; the arm returns after %.3g s", field, pause)
+        self.reflexevents_proxy.limited(limitation(LimitCause.Obstacle, field, time, pause))
 
     def _move(self, goal: Floats, share: float) -> None:
         """Command the arm; freeze if it rejects the command or does not reply."""
         assert self.arm is not None  # noqa: S101 - only `Frozen` has no arm
-        speed = share * self.arm.speed
+        speed = synchronised(self.pose, goal, share * self.arm.speed)
         self.goal = goal
         self.until = self.clock.now() + duration(self.pose, goal, speed) + self.params.patience
         reason = self.failure_of(lambda: self.genericarm_proxy.move(goal, speed))
@@ -179,3 +230,4 @@ class SpecificWorker(HealthMonitor):
         """Also discard the withdrawal."""
         super().on_time_reset()
         self.withdrawal, self.touched = None, -inf
+        self.obstacle, self.reported = ObstacleMonitor(), (-inf, "")

@@ -51,7 +51,11 @@ def check_cdsl(path: Path, workspace: Workspace, report: Report) -> Component | 
     if file is None or file.tree.component is None:
         return None
     resolved = resolve_cdsl(file, file.tree.component, workspace, report)
-    check_cdsl_rules(file.tree.component, resolved, report)
+    check_cdsl_rules(resolved, report)
+    if file.tree.component.gui:
+        from robocomp_dsl.check.cdsl.window import check_form  # noqa: PLC0415 - for windows
+
+        check_form(file.tree.component.gui, path.parent, workspace, report)
     return resolved.component
 
 
@@ -104,6 +108,10 @@ def check_innermodel(path: Path, workspace: Workspace, report: Report) -> InnerM
         _report_unreadable(path, error, report)
         return None
     check_innermodel_rules(body, report)
+    if workspace.world_folders is not None:
+        from robocomp_dsl.check.innermodel.world_files import check_world_files  # noqa: PLC0415
+
+        check_world_files(body, workspace.world_folders, report)
     return body
 
 

@@ -22,9 +22,9 @@ MODEL_SIMPLIFIED = Code(
     Severity.WARNING,
     "the model was simplified",
     """\
-The model is used with a simplification: a mesh that is missing or in an unsupported format becomes
-a box (`.obj` and `.stl` are supported; of `.dae`, `.osg` and `.3ds` only the size), a missing
-texture is left out, a moving body without mass gets one.
+The model is used with a simplification: a mesh that is missing or cannot be read becomes a small
+marker that touches nothing, a mesh in `.dae` its bounding box, a missing texture is left out, a
+moving body without mass gets one. Convert meshes to `.obj` or `.stl`.
 
 `rcgen simulator` also reports a joint that is too light for the torque of its motor at the time
 step of the file (it gets more `armature`, because no controller could hold it), a joint in the

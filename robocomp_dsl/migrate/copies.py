@@ -39,12 +39,14 @@ def copy_all(moved: MigratedComponent, files: Sequence[ComponentFile], report: R
         rejection = _rejection(file, moved)
         if rejection is not None:
             report.add(rejection[0], Source(file.path, "").file_span, rejection[1])
-        elif file.category is FileCategory.COPY:
+        elif file.category in (FileCategory.COPY, FileCategory.WINDOW):
             room -= _copy(moved, file, room, report)
 
 
 def _rejection(file: ComponentFile, moved: MigratedComponent) -> tuple[Code, str] | None:
     """The finding about a file that is not copied; None for a file to copy."""
+    if file.category is FileCategory.WINDOW and moved.has_window:
+        return None
     script = file.relative == PurePosixPath("src", f"{moved.name}.py")
     if file.category is FileCategory.REPLACED or (script and file.category is FileCategory.MODULE):
         return codes.GENERATED_FILE_DROPPED, f"`{file.relative}` has no replacement"

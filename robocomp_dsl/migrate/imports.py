@@ -15,11 +15,17 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.regeneration.user_module import UserModule
 from robocomp_dsl.migrate import codes
 from robocomp_dsl.migrate.legacy import STAND_INS
+from robocomp_dsl.migrate.qt_imports import (
+    QT,
+    adapted_from_import,
+    adapted_import,
+    is_qt,
+    missing_in_qt6,
+)
 from robocomp_dsl.source import Span
 
 GENERATED_MODULES = ("genericworker", "interfaces")
 """Modules that RoboComp generated next to the worker."""
-QT = ("PySide", "PySide2", "PySide6", "PyQt4", "PyQt5", "PyQt6")
 _QT_NAME = re.compile(r"Q[A-Zt]\w+|Qt|qApp|Signal|Slot|SIGNAL|SLOT|Property|pyqt\w+")
 TextEdit = tuple[int, int, str]
 """Replace the text of [start, end)."""
@@ -32,7 +38,8 @@ class LegacyNames:
     `handlers` has the new name of each method that other components call.
 
     `states` are the suffixes of the state methods; None without a state machine. `servants` are
-    modules that RoboComp generated, and that the runtime replaces.
+    modules that RoboComp generated, and that the runtime replaces. `has_window`: the component
+    runs with Qt, so imports of Qt become imports of PySide6.
     """
 
     legacy: str
@@ -41,6 +48,7 @@ class LegacyNames:
     handlers: Mapping[str, str]
     states: frozenset[str] | None = None
     servants: frozenset[str] = frozenset()
+    has_window: bool = False
 
 
 def _used_attributes(tree: ast.Module) -> dict[str, set[str]]:
@@ -74,9 +82,17 @@ def adapt_imports(user: UserModule, names: LegacyNames, report: Report) -> Itera
         else:
             continue
         span = span_of(user, node)
+        if names.has_window and _imports_qt(node):
+            if (missing := missing_in_qt6(node, used)) is not None:
+                message = f"`{span.text:.80}` needs {missing}"
+                report.add(codes.NEEDS_QT_OR_ICE, span, message)
+            if new is None:
+                continue
         if new is not None:
-            if isinstance(node, ast.ImportFrom) and (
-                missing := _unsupported_star_import(node, user, used)
+            if (
+                isinstance(node, ast.ImportFrom)
+                and not names.has_window
+                and (missing := _unsupported_star_import(node, user, used))
             ):
                 report.add(
                     codes.NEEDS_QT_OR_ICE, span, f"{missing} is available only with Qt or Ice"
@@ -89,6 +105,13 @@ def adapt_imports(user: UserModule, names: LegacyNames, report: Report) -> Itera
                 span,
                 f"`{span.text:.80}` was not changed: it needs {missing}",
             )
+
+
+def _imports_qt(node: ast.Import | ast.ImportFrom) -> bool:
+    """Whether a statement imports from Qt."""
+    if isinstance(node, ast.ImportFrom):
+        return is_qt(node.module or "")
+    return any(is_qt(alias.name) for alias in node.names)
 
 
 def _plain_import(node: ast.Import, names: LegacyNames, used: dict[str, set[str]]) -> str | None:
@@ -104,12 +127,15 @@ def _plain_import(node: ast.Import, names: LegacyNames, used: dict[str, set[str]
         is_provided = alias.name in names.modules or (
             alias.name == "Ice" and _unsupported_attribute("Ice", bound, used) is None
         )
-        changed = changed or is_generated or is_provided
+        is_window = names.has_window and is_qt(alias.name)
+        changed = changed or is_generated or is_provided or is_window
         suffix = f" as {alias.asname}" if alias.asname else ""
         if is_generated:
             statements.append(f"import {names.legacy} as {bound}")
         elif is_provided:
             statements.append(f"from {names.legacy} import {alias.name}{suffix}")
+        elif is_window:
+            statements.append(adapted_import(alias))
         else:
             statements.append(f"import {alias.name}{suffix}")
     return ("; ".join(statements) or "pass") if changed else None
@@ -125,6 +151,8 @@ def _from_import(node: ast.ImportFrom, names: LegacyNames, used: dict[str, set[s
         return "pass"
     if module in names.modules:
         return f"from {names.package}.interfaces import {listed}"
+    if names.has_window and is_qt(module):
+        return adapted_from_import(node, names.legacy)
     if module.partition(".")[0] in QT and _unsupported_qt_name(node, used) is None:
         supported = [a for a in _expanded(node, used) if a.name in STAND_INS]
         listed = ", ".join(a.name + (f" as {a.asname}" if a.asname else "") for a in supported)

@@ -78,6 +78,7 @@ def legacy_text(
             (name, next(module for module, names in provided.items() if name in names))
             for name in sorted(bare)
         ],
+        window=bool(component.gui),
     )
 
 

@@ -25,7 +25,10 @@ class MigratedConfig:
 
 @dataclass(slots=True)
 class MigratedComponent:
-    """A component during migration. `component` is None if its description has errors."""
+    """A component during migration. `component` is None if its description has errors.
+
+    `has_window`: it has `gui`, so that files of Qt Designer are copied.
+    """
 
     folder: Path
     out: Path
@@ -33,6 +36,7 @@ class MigratedComponent:
     name: str
     span: Span
     component: Component | None = None
+    has_window: bool = False
     configs: tuple[MigratedConfig, ...] = ()
     files: list[OutputFile] = field(default_factory=list)
     converted_files: list[tuple[str, str]] = field(default_factory=list)

@@ -123,6 +123,8 @@ def _review(
     paths = [file.relative for file in files if file.category is not FileCategory.REPLACED]
     local_names = {path.stem for path in paths if path.suffix in (".py", ".so", ".pyd")}
     local_names |= {part for path in paths for part in path.parent.parts}
+    if component.gui:
+        local_names |= {f"ui_{path.stem}" for path in paths if path.suffix == ".ui"}
     review_ports(user, component, report)
     review_modules(
         user,

@@ -15,7 +15,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.regeneration.user_module import UserModule
 from robocomp_dsl.migrate import worker_codes
-from robocomp_dsl.migrate.imports import GENERATED_MODULES, QT, span_of
+from robocomp_dsl.migrate.imports import GENERATED_MODULES, span_of
+from robocomp_dsl.migrate.qt_imports import QT
 
 HOOKS = frozenset(
     """emergency restore finalize deadline_missed publisher_lost

@@ -33,7 +33,9 @@ def names_for(component: Component, legacy: str) -> LegacyNames:
     servants = frozenset(
         ["commonbehaviorI", *(f"{port.interface.name.lower()}I" for port in component.ports)]
     )
-    return LegacyNames(legacy, called.package, modules, handlers, states, servants)
+    return LegacyNames(
+        legacy, called.package, modules, handlers, states, servants, has_window=bool(component.gui)
+    )
 
 
 def adapt_module(user: UserModule, names: LegacyNames, report: Report, first_line: str = "") -> str:

@@ -144,10 +144,10 @@ class Instance(Record):
     and folders that it needs. With a `prefix`, the name of the running component is `full_name`:
     `left/arm-motor`. `config` is None if the component uses its own `etc/config.yaml` or searches
     for a file of the `context` or for `config_name` when it starts; `settings` are the `set` lines
-    with dotted keys; `executable` is a command line run in the component's folder; `port` 0: any
-    free port; `watchdog_s` None: as in the component; `middleware` "": as in the component.
-    `is_program`: a program that is no component; its `component` has no ports, and the path of the
-    DDSL file.
+    with dotted keys, `setting_paths` the files and folders that they name, which are absolute in
+    both; `executable` is a command line run in the component's folder; `port` 0: any free port;
+    `watchdog_s` None: as in the component; `middleware` "": as in the component. `is_program`: a
+    program that is no component; its `component` has no ports, and the path of the DDSL file.
     """
 
     name: str
@@ -178,6 +178,7 @@ class Instance(Record):
     is_program: bool = False
     placement: Placement = Placement()
     files: tuple[Path, ...] = ()
+    setting_paths: tuple[Path, ...] = ()
 
     @property
     def full_name(self) -> str:

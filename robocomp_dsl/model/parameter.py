@@ -21,12 +21,16 @@ class Kind(StrEnum):
     GROUP = "group"
 
 
+PATH = "path"
+"""The type of a STRING that names a file or folder."""
+
+
 class Parameter(Record):
     """One parameter. `default` None: a value is required.
 
     `low` and `high` bound a number (inclusive) or the length of a group list; either may be None.
     `choices` only for CHOICE, `members` only for GROUP. A group with `single` is one nested group
-    and no list.
+    and no list. `is_path`: a STRING that names an existing file or folder, declared as `path`.
     """
 
     name: str
@@ -41,6 +45,12 @@ class Parameter(Record):
     members: tuple[Parameter, ...] = ()
     single: bool = False
     doc: str = ""
+    is_path: bool = False
+
+    @property
+    def type_name(self) -> str:
+        """The type as PDSL writes it; of a CHOICE and a GROUP the name of the kind."""
+        return PATH if self.is_path else self.kind.value
 
 
 class ParameterSet(Record):

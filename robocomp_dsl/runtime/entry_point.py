@@ -25,11 +25,12 @@ from robocomp_dsl.runtime.component.process_exit import exit_now, exit_with
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import ComponentSpec
 from robocomp_dsl.runtime.component.user_errors import TRACEBACK_VARIABLE
-from robocomp_dsl.runtime.errors import MiddlewareError, MonitorError
+from robocomp_dsl.runtime.errors import MiddlewareError, MonitorError, WindowError
 from robocomp_dsl.runtime.middleware.registry import UnknownMiddleware
 from robocomp_dsl.runtime.parameters import ConfigError
 
 if TYPE_CHECKING:
+    from robocomp_dsl.runtime.component.hook_thread import HookThread
     from robocomp_dsl.runtime.component.runner import Runner
     from robocomp_dsl.runtime.component.supervision import Supervision
 
@@ -51,12 +52,18 @@ def _main(component: type[Component], argv: Sequence[str] | None) -> int:
     options, settings = _parse(component.SPEC, argv)
     name = settings.full_name(component.SPEC.name)
     logs.set_up(name, options.log_level, options.log_format)
-    runner = _create_runner(component, options, settings, None)
+    window = None
+    if component.SPEC.has_window:
+        # Loads Qt. The application must exist before the worker, which is a window.
+        from robocomp_dsl.runtime.gui.application import WindowApplication  # noqa: PLC0415
+
+        window = WindowApplication(name, component.SPEC.threads)
+    runner = _create_runner(component, options, settings, None, window)
     if runner is None:
         return 1
     on_signals(runner.stop)
     runner.start()
-    succeeded = runner.wait()
+    succeeded = window.run(runner) if window else runner.wait()
     if runner.abandoned:
         exit_now(1)  # one of its threads hangs
     return 0 if succeeded else 1
@@ -70,6 +77,9 @@ def create_runner(
     Its command line is as in `main`. Raises `SystemExit` for an invalid one, as argparse does.
     """
     options, settings = _parse(component.SPEC, argv)
+    if component.SPEC.has_window:
+        log.error("a component with a window runs in a process of its own, not in that of a group")
+        return None
     return _create_runner(component, options, settings, supervision)
 
 
@@ -89,6 +99,7 @@ def _create_runner(
     options: argparse.Namespace,
     settings: RunSettings,
     supervision: Supervision | None,
+    hook_thread: HookThread | None = None,
 ) -> Runner | None:
     if options.traceback:
         os.environ[TRACEBACK_VARIABLE] = "1"
@@ -111,8 +122,8 @@ def _create_runner(
     from robocomp_dsl.runtime.component.runner import Runner  # noqa: PLC0415
 
     try:
-        return Runner(component, params, settings, supervision=supervision)
-    except (MiddlewareError, MonitorError, UnknownMiddleware) as error:
+        return Runner(component, params, settings, supervision=supervision, hook_thread=hook_thread)
+    except (MiddlewareError, MonitorError, UnknownMiddleware, WindowError) as error:
         log.error("%s", error)  # noqa: TRY400 - the message is all there is to know
         return None
 

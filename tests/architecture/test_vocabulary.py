@@ -15,7 +15,7 @@ FORBIDDEN = frozenset({"one", "said", "made", "told", "given", "kept", "wanted"}
 NOT_OURS = {"generated", "golden", "old", "node_modules"}
 
 STAGES = {"syntax/ast": "tree", "model": "model"} | dict.fromkeys(
-    ("runtime", "hardware", "simulation", "tactile"), "running"
+    ("runtime", "hardware", "simulation", "tactile", "innermodel"), "running"
 )
 """A noun may have one class in each of these: what is written, what it means, what runs."""
 

@@ -11,8 +11,10 @@ import pytest
 
 from robocomp_dsl.simulation.view import offscreen
 from robocomp_dsl.simulation.view.picture import Renderer, Viewpoint, png
+from robocomp_dsl.simulation.world.simulation import Simulation
 from tests.cli.rcgen_run import Rcgen
 from tests.cli.view_run import view
+from tests.simulation.served_worlds import scene_of
 
 MODELS = Path(__file__).parents[1] / "simulation" / "models" / "files"
 
@@ -190,15 +192,6 @@ def test_view_reports_overlapping_bodies_with_location(rcgen: Rcgen, tmp_path: P
     assert "world.xml:2:1" in result.err
 
 
-def test_view_replaces_missing_mesh_by_box(rcgen: Rcgen, tmp_path: Path) -> None:
-    path = tmp_path / "world.xml"
-    path.write_text('<innerModel>\n  <mesh id="m" file="gone.3ds" scale="100"/></innerModel>')
-    result = rcgen("view", str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
-    assert result.code == 0
-    assert "RC652]: the mesh `m`" in result.err
-    assert "world.xml:2:3" in result.err
-
-
 def test_view_of_empty_world(tmp_path: Path) -> None:
     """In a process, so that output of libraries is captured, too."""
     path = tmp_path / "world.xml"
@@ -223,3 +216,90 @@ def test_view_reports_overlapping_links_with_location(rcgen: Rcgen, tmp_path: Pa
     assert result.code == 0
     assert "`a` and `b` overlap by 200 mm" in result.err
     assert "balls.xml:2:1" in result.err
+
+
+CAMERA_WORLD = """\
+<innerModel>
+  <transform id="world">
+    <plane id="left" nz="-1" px="-800" pz="3000" size="500,1000,500" texture="#ff0000"/>
+    <plane id="right" nz="-1" px="800" pz="3000" size="500,600,500" texture="#00ff00"/>
+    <plane id="behind" nz="-1" pz="-3000" size="900,1000,500" texture="#0000ff"/>
+    <differentialrobot id="robot">
+      <camera id="eye" width="160" height="120" focal="130"/>
+      <transform id="back" ry="180 deg">
+        <rgbd id="rear" width="128" height="64" focal="60"/>
+      </transform>
+    </differentialrobot>
+  </transform>
+</innerModel>
+"""
+
+
+@pytest.fixture
+def camera_world(tmp_path: Path) -> Path:
+    path = tmp_path / "world.xml"
+    path.write_text(CAMERA_WORLD)
+    return path
+
+
+def test_view_camera_of_innermodel_shows_what_it_looks_at(
+    rcgen: Rcgen, tmp_path: Path, camera_world: Path
+) -> None:
+    """Red on the left, green on the right; blue behind the robot. The size is the camera's."""
+    path = tmp_path / "picture.png"
+    seen = {}
+    for name, size in (("eye", "160 x 120"), ("rear", "128 x 64")):
+        result = rcgen("view", str(camera_world), "--camera", name, "--screenshot", str(path))
+        assert result.code == 0, result.err
+        assert f"{size} pixels" in result.out
+        image = pixels(path).astype(int)
+        pure = [image[..., i] - np.delete(image, i, axis=2).max(axis=2) > 100 for i in range(3)]
+        columns = np.arange(image.shape[1]) / image.shape[1]
+        seen[name] = [
+            float(columns[mask.any(axis=0)].mean()) if mask.mean() > 0.01 else None for mask in pure
+        ]
+    left, right, nothing = seen["eye"]
+    assert left is not None
+    assert right is not None
+    assert left < 0.4 < 0.6 < right
+    assert nothing is None
+    assert seen["rear"] == [None, None, pytest.approx(0.5, abs=0.02)]
+
+
+def test_view_camera_shows_picture_of_simulated_camera(
+    rcgen: Rcgen, tmp_path: Path, camera_world: Path
+) -> None:
+    """What `CameraSimple` of the simulator serves, pixel by pixel."""
+    path = tmp_path / "picture.png"
+    scene = scene_of(camera_world, CAMERA_WORLD)
+    simulation = Simulation(scene)
+    try:
+        for name in ("eye", "rear"):
+            rcgen("view", str(camera_world), "--camera", name, "--screenshot", str(path))
+            assert (pixels(path) == simulation.devices[name].picture().colour).all()
+    finally:
+        simulation.stop()
+
+
+@pytest.mark.parametrize("page", [False, True], ids=["screenshot", "page"])
+def test_view_lists_cameras_if_the_name_is_unknown(
+    rcgen: Rcgen, tmp_path: Path, camera_world: Path, page: bool
+) -> None:
+    to = ("--port", "0", "--no-browser") if page else ("--screenshot", str(tmp_path / "a.png"))
+    result = rcgen("view", str(camera_world), "--camera", "ear", *to)
+    assert result.code == 1
+    expected = "the model has no camera `ear`: its cameras are `eye`, `rear`"
+    assert expected in result.err
+
+
+def test_view_camera_of_mjcf_has_default_size(rcgen: Rcgen, tmp_path: Path) -> None:
+    text = """<mujoco><worldbody><geom type="box" size=".1 .1 .1"/>
+      <camera name="side" pos="0 -1 0" euler="90 0 0"/>
+      <camera name="small" pos="0 -1 0" euler="90 0 0" resolution="80 60"/>
+    </worldbody></mujoco>"""
+    (tmp_path / "m.xml").write_text(text)
+    for name, shape in (("side", (960, 1280, 3)), ("small", (60, 80, 3))):
+        to = str(tmp_path / "m.png")
+        result = rcgen("view", str(tmp_path / "m.xml"), "--camera", name, "--screenshot", to)
+        assert result.code == 0, result.err
+        assert pixels(tmp_path / "m.png").shape == shape

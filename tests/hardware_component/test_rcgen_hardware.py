@@ -32,7 +32,9 @@ WORLD = """\
       <imu id="inertia"/>
       <gps id="sat" latitude="39" longitude="-6"/>
       <battery id="cell"/>
-      <touchsensor id="bump" type="bumper"/>
+      <touchsensor id="bump" type="bumper">
+        <plane id="bump_plate" py="30" pz="210" size="300,40,10" collide="1"/>
+      </touchsensor>
       <joint id="neck" axis="y" min="-1" max="1">
         <joint id="nod" axis="x" min="-0.5" max="0.5"/>
       </joint>

@@ -50,6 +50,10 @@ class ComponentProcess:
     def _found(self, words: str) -> str | None:
         return next((line for line in self.lines if words in line), None)
 
+    def wait_for_end(self) -> int:
+        """The exit code of a process that ends by itself."""
+        return self._process.wait(DEADLINE_S)
+
     def stop(self) -> int:
         """Terminate the process; its exit code."""
         self._process.terminate()

@@ -50,7 +50,9 @@ ROOM = f"""\
         <laser id="laser" measures="101" min="100" max="30000" angle="1"/>
       </translation>
       <imu id="inertia"/>
-      <touchsensor id="bump" type="bumper"/>
+      <touchsensor id="bump" type="bumper">
+        <plane id="bump_plate" py="30" pz="210" size="300,40,10" collide="1"/>
+      </touchsensor>
       <joint id="neck" axis="y" min="-1" max="1"/>
       <plane id="hull" nz="-1" py="100" size="400,190,400"/>
     </differentialrobot>

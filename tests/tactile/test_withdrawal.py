@@ -30,7 +30,7 @@ FACTS = ArmProperties(np.full(5, -0.5), np.full(5, 1.2), np.full(5, 2.0), START,
 
 def response(gain: float, name: str = "a", motion: np.ndarray = THETA) -> Response:
     field = Field(name, "lower", np.zeros(3), 0.03, motion)
-    return Response(field, Stimulus(np.zeros(3), 1.0), 0.0, gain)
+    return Response(field, Stimulus(np.zeros(3), 1.0), 0.0, gain, np.array([0.0, 0.0, -1.0]))
 
 
 def withdrawn(*frames: list[Response], facts: ArmProperties = FACTS) -> Withdrawal:

@@ -31,5 +31,5 @@ def harness(start_reflex, request) -> ReflexHarness:
 
 @pytest.fixture(params=ARMS, ids=[f"{robot}-{side}" for robot, side in ARMS])
 def centred_harness(start_reflex, request) -> ReflexHarness:
-    """The reflex of one arm of a robot, which watches; its arm is far from all limits."""
-    return start_reflex(*request.param, CentredRobot).wait_until_watching()
+    """The reflex of one arm with the law `fixed`; its arm is far from all limits."""
+    return start_reflex(*request.param, CentredRobot, law="fixed").wait_until_watching()

@@ -106,7 +106,7 @@ class Robot(SteppedClockSource):
             ServedPort(
                 "ReflexEvents",
                 interfaces.REFLEXEVENTS,
-                {"reflex": "record_event", "stateChanged": "record_event"},
+                dict.fromkeys(("reflex", "limited", "stateChanged"), "record_event"),
             ),
         ),
     )

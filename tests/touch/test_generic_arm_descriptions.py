@@ -53,7 +53,7 @@ WRONG = {
     "near": ([f"description={NAO}", "part=left_arn"], ("did you mean `left_arm`?",)),
     "file": (["description=nobody.yaml"], ("file not found: `nobody.yaml`", "etc/nobody.yaml")),
     "folder": ([f"description={DESCRIPTIONS}"], ("file not found",)),
-    "fault": (["description=FAULTY"], ("faulty.yaml:9:51", "did you mean `gamma`?")),
+    "fault": (["description=FAULTY"], ("faulty.yaml:10:51", "did you mean `gamma`?")),
     "bytes": (["description=BYTES"], ("bytes.yaml:1:1", "not UTF-8 text")),
     "boards": (["description=SPREAD"], ("on 5 physical parts", "ports for 3")),
 }

@@ -20,7 +20,13 @@ from tests.touch.kinematic_robot import ARMS, CentredRobot, ReflexHarness, inter
 THETA = np.array([-0.2, 0.3, 0.0, 0.5, 0.1])
 CENTRE = np.array([0.05, 0.0, 0.03])
 RADIUS = 0.03
-FORCES = {"threshold": 1.0, "full": 10.0, "least_change": 0.0005, "withdraw_speed": 1.0}
+FORCES = {
+    "threshold": 1.0,
+    "full": 10.0,
+    "least_change": 0.0005,
+    "withdraw_speed": 1.0,
+    "law": "fixed",
+}
 TOLERANCE = 1e-6
 
 Rows = list[tuple[float, float, float]]

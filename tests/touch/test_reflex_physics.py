@@ -100,7 +100,7 @@ BOTH = pytest.mark.parametrize("robot", ["nao_h25", "icub_v2"])
 @BOTH
 def test_reflex_responses_to_physics_match_equations(start_physical_reflex, robot) -> None:
     """Rows 2, 3 and 7 of the acceptance table, with the forces that physics makes of a press."""
-    harness = start_physical_reflex(robot, "left_arm", full=5.0)
+    harness = start_physical_reflex(robot, "left_arm", full=5.0, law="fixed")
     it, place = harness.robot, "lower_arm_outer"
     set_fields(harness, place)
     it.press(harness.field(place), 0.003, 0.3, along=0.006)
@@ -122,7 +122,7 @@ def test_reflex_responses_to_physics_match_equations(start_physical_reflex, robo
 @pytest.mark.parametrize("place", ["lower_arm_under", "upper_arm_front"])
 def test_reflex_saturates_at_hard_press_on_centre(start_physical_reflex, robot, place) -> None:
     """Rows 1 and 6: as far as the base motion says, and no further."""
-    harness = start_physical_reflex(robot, "right_arm", threshold=0.01, full=0.05)
+    harness = start_physical_reflex(robot, "right_arm", threshold=0.01, full=0.05, law="fixed")
     set_fields(harness, place)
     start, field = harness.robot.poses[-1], harness.field(place)
     harness.robot.press(field, 0.004, 0.3)

@@ -62,9 +62,12 @@ def test_reflex_applies_changed_machine_parameters(centred_harness) -> None:
     centred_harness.press("lower_arm_under", 5.0)
     centred_harness.run(0.04)
     centred_harness.release()
-    assert centred_harness.robot.moves[0][2] == pytest.approx(
-        0.5 * centred_harness.robot.arm.speed_limits
-    )
+    start, (_, goal, speeds) = centred_harness.robot.rest, centred_harness.robot.moves[0]
+    moved = np.abs(goal - start) > 1e-9
+    shares = (speeds / centred_harness.robot.arm.speed_limits)[moved]
+    assert shares.max() == pytest.approx(0.5)
+    durations = (np.abs(goal - start)[moved] / speeds[moved]).tolist()
+    assert durations == pytest.approx([durations[0]] * len(durations))
     centred_harness.run_until("Holding")
     centred_harness.run(0.26)
     assert centred_harness.state == "Returning"

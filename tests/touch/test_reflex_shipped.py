@@ -20,7 +20,7 @@ PLACES = ("lower_arm_outer", "lower_arm_inner", "lower_arm_under", "lower_arm_up
 
 @pytest.fixture(scope="module", params=list(BOARDS), ids=[f"{r}-{s}" for r, s in BOARDS])
 def system(request: pytest.FixtureRequest) -> Iterator[ShippedSystem]:
-    system = ShippedSystem(*request.param, threshold=0.005, full=0.02, hold=1.0)
+    system = ShippedSystem(*request.param, threshold=0.005, full=0.02, hold=1.0, law="fixed")
     try:
         system.run_until("Watching", 5.0)
         system.run(0.5)

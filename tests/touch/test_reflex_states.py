@@ -16,7 +16,7 @@ from tests.touch.kinematic_robot import REFLEX, ReflexHarness, interfaces
 
 @pytest.fixture
 def harness() -> Iterator[ReflexHarness]:
-    system = ReflexHarness()
+    system = ReflexHarness(law="fixed")
     yield system
     system.close()
 

@@ -26,7 +26,7 @@ FULL = 0.2
 
 @pytest.fixture(scope="module", params=list(BOARDS), ids=[f"{r}-{s}" for r, s in BOARDS])
 def robot(request: pytest.FixtureRequest) -> Iterator[ShippedSystem]:
-    system = ShippedSystem(*request.param, hold=0.2)
+    system = ShippedSystem(*request.param, hold=0.2, law="fixed")
     try:
         system.run_until("Watching", 5.0)
         yield system

@@ -167,7 +167,7 @@ def test_reflex_withdraws_further_while_holding(centred_harness) -> None:
 
 def test_reflex_withdraws_from_touch_while_returning(start_reflex) -> None:
     harness = start_reflex(
-        "icub_v2", "left_arm", CentredRobot, refractory=0.5, hold=0.1
+        "icub_v2", "left_arm", CentredRobot, refractory=0.5, hold=0.1, law="fixed"
     ).wait_until_watching()
     harness.press("lower_arm_under", 5.0)
     harness.run(0.04)

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from robocomp_dsl.runtime.parameters import Parameter, Parameters
 
 
@@ -27,6 +29,24 @@ class ReflexParams(Parameters):
             default=True,
             live=True,
             doc="Whether the reflex reacts to touches; otherwise it only observes them.",
+        ),
+        Parameter(
+            "law",
+            "choice",
+            default="pose",
+            choices=("pose", "fixed"),
+            live=True,
+            doc="Direction of a withdrawal: away from the touch at the current `pose` (needs `model` in the description), or the `fixed` motion of each field.",
+        ),
+        Parameter(
+            "clearance",
+            "float",
+            default=0.01,
+            low=0.0,
+            high=0.5,
+            unit="m",
+            live=True,
+            doc="The arm keeps this distance to the rest of the robot, as far as it has it.",
         ),
         Parameter(
             "threshold",
@@ -77,6 +97,16 @@ class ReflexParams(Parameters):
             unit="s",
             live=True,
             doc="The arm moves back after this time without a touch.",
+        ),
+        Parameter(
+            "longest_pause",
+            "float",
+            default=30.0,
+            low=0.0,
+            high=3600.0,
+            unit="s",
+            live=True,
+            doc="The pause doubles while an obstacle stays in the way back, up to this time.",
         ),
         Parameter(
             "withdraw_speed",
@@ -163,6 +193,10 @@ class ReflexParams(Parameters):
     part: str
     # Whether the reflex reacts to touches; otherwise it only observes them.
     enabled: bool
+    # Direction of a withdrawal: away from the touch at the current `pose` (needs `model` in the description), or the `fixed` motion of each field.
+    law: Literal["pose", "fixed"]
+    # The arm keeps this distance to the rest of the robot, as far as it has it.
+    clearance: float
     # Mean force of a touch's taxels at which the reflex starts.
     threshold: float
     # Mean force of full strength; greater than `threshold`.
@@ -173,6 +207,8 @@ class ReflexParams(Parameters):
     refractory: float
     # The arm moves back after this time without a touch.
     hold: float
+    # The pause doubles while an obstacle stays in the way back, up to this time.
+    longest_pause: float
     # Mean speed of the withdrawal as a share of each joint's speed limit; the peak is about twice that.
     withdraw_speed: float
     # Mean speed of the return as a share of each joint's speed limit.

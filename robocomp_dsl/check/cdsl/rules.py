@@ -6,7 +6,6 @@ In: a resolved component and its tree. Out: diagnostics.
 from __future__ import annotations
 
 from robocomp_dsl.check.cdsl.resolve import ResolvedComponent
-from robocomp_dsl.check.codes import names as name_codes
 from robocomp_dsl.check.codes import types as type_codes
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.diagnostics import Note, Report
@@ -15,30 +14,25 @@ from robocomp_dsl.model.interface import Operation, Pattern
 from robocomp_dsl.syntax.ast import cdsl as ast
 
 
-def check_cdsl_rules(tree: ast.Component, resolved: ResolvedComponent, report: Report) -> None:
+def check_cdsl_rules(resolved: ResolvedComponent, report: Report) -> None:
     """Check the rules of a component."""
     for written, port in resolved.pairs:
         if port.role.is_topic:
             _check_topic(written, port, report)
         else:
             _check_service(written, port, report)
-    if tree.gui:
-        report.add(
-            name_codes.NO_GUI,
-            tree.gui.span,
-            "no code is generated for a user interface",
-            help="remove it, or keep it for the older tool",
-        )
 
 
 def _check_topic(written: ast.Port, port: Port, report: Report) -> None:
-    """Report queries and commands in a topic: publishers get no reply."""
+    """Report queries and commands in a topic: publishers get no reply, so it has no queries."""
     queries = [o for o in port.interface.operations if port.pattern(o) is Pattern.QUERY]
     if queries:
         report.add(
             type_codes.TOPIC_WITH_OUTPUT,
             written.interface.span,
-            f"`{port.interface.name}` cannot be a topic: {_operations(queries)} {_gives(queries)}",
+            f"{_operations(queries)} of `{port.interface.name}` {_gives(queries)}: not part of the"
+            " topic",
+            label="" if port.operations else "nothing of it can be published",
             notes=[
                 Note(operation.span, f"`{operation.name}` is declared here")
                 for operation in queries

@@ -9,10 +9,11 @@ MISSING_IMPORT = Code(
     Severity.ERROR,
     "imported file not found",
     """\
-An interface description is searched by file name in these folders, and the first match is used: the
-folder of the checked file, the `-I` folders, the folders in the environment variable
-ROBOCOMP_INTERFACES (separated by `:`), and the interfaces that come with the tool. The folders of a
-written path are ignored. File names are case-sensitive.
+The first file found is used: the path as written, relative to the importing file; then its last
+part beside the checked file and beside the importing file; then both in the `-I` folders, in the
+folders of the environment variable ROBOCOMP_INTERFACES (separated by `:`), in `interfaces/` and
+`interfaces/IDSLs/` beside or above the file; then the interfaces that come with the tool. File
+names are case-sensitive.
 
 Wrong:
 
@@ -154,8 +155,7 @@ NOT_IMPORTABLE = Code(
     Severity.ERROR,
     "an import must name an `.idsl` file",
     """\
-Components and interfaces import `.idsl` files by name. They are searched in the interface folders
-only (see RC201); the folders of a written path are ignored.
+Components and interfaces import `.idsl` files by name or path; RC201 tells where they are searched.
 
 Wrong:
 
@@ -315,19 +315,23 @@ Better: delete it, and import the library in your own code.
 """,
 )
 
-NO_GUI = Code(
-    "RC217",
+FORM_MISMATCH = Code(
+    "RC411",
     Severity.WARNING,
-    "no code is generated for a user interface",
+    "the form does not fit the window",
     """\
-The older tool opened a Qt window of this class in every component with a `gui`. This tool generates
-the component without it; other tools can show and change its parameters and state.
+`gui` names the class of the window, and `mainUI.ui` contains its widgets. The form of a
+`QMainWindow` has a central widget and menus, which other windows lack; a layout of another form has
+no place in a `QMainWindow`. So both must be for the same class; a `QDialog` also takes the form of
+a `QWidget`.
 
-Without effect:
+Wrong, where `mainUI.ui` begins with `<widget class="QMainWindow" …>`:
 
     gui Qt(QWidget);
 
-Better: delete it, and open a window in the code of the component if you need one.
+Right:
+
+    gui Qt(QMainWindow);
 """,
 )
 

@@ -22,6 +22,7 @@ from robocomp_dsl.check.ddsl.prefixes import prefix_of
 from robocomp_dsl.check.ddsl.programs import program_component
 from robocomp_dsl.check.ddsl.readiness import limits_of, port_of, readiness_of
 from robocomp_dsl.check.ddsl.restarts import ready_of, restart_of
+from robocomp_dsl.check.ddsl.setting_paths import PathSearch
 from robocomp_dsl.check.ddsl.settings import settings_of
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.check.names.duplicates import unique_by_name
@@ -76,6 +77,9 @@ def resolve_instance(
     middleware = find_middleware(tree.middleware, around.workspace.middlewares, report)
     if component is None:
         return None
+    search = PathSearch(component.path.parent, config, place.host.is_local)
+    written = () if tree.is_program else tree.settings
+    settings, paths = settings_of(written, component, search, report)
     return Instance(
         name=tree.name.text,
         component=component,
@@ -85,7 +89,8 @@ def resolve_instance(
         context=context,
         config_name=searched,
         prefix=prefix,
-        settings=() if tree.is_program else settings_of(tree.settings, component, report),
+        settings=settings,
+        setting_paths=paths,
         devices=devices,
         environment=tuple((node.name.text, node.value.value) for node in environment),
         executable=executable,

@@ -1,14 +1,17 @@
 """Checks `set key = value;` of a deployment against the parameters of the component.
 
-In: the settings and the parameters. Out: keys and values, and diagnostics.
+In: the settings and the parameters. Out: keys and values, and diagnostics. A path is relative to
+the file in which it is written.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from pathlib import Path
 
 from robocomp_dsl.check.codes import deployment as codes
+from robocomp_dsl.check.ddsl.setting_paths import PathSearch
 from robocomp_dsl.check.literals import OutOfRange, TypeMismatch, join_names
 from robocomp_dsl.check.names.duplicates import report_duplicate
 from robocomp_dsl.check.pdsl.values import as_kind, check_range, format_number
@@ -33,25 +36,35 @@ class _Unknown(Exception):
 
 
 def settings_of(
-    written: Sequence[Setting], component: Component, report: Report
-) -> tuple[tuple[str, types.Literal], ...]:
-    """The valid settings, in order of writing."""
+    written: Sequence[Setting], component: Component, search: PathSearch, report: Report
+) -> tuple[tuple[tuple[str, types.Literal], ...], tuple[Path, ...]]:
+    """The valid settings in order of writing, and the files and folders that they name.
+
+    `search` finds their paths.
+    """
     first: dict[str, Name] = {}
     settings = []
+    paths = []
     for setting in written:
         earlier = first.setdefault(setting.key.text, setting.key)
         if earlier is not setting.key:
             report_duplicate(setting.key, earlier, "setting", report)
             continue
-        value = _value(setting, component, report)
-        if value is not None:
-            settings.append((setting.key.text, value))
-    return tuple(settings)
+        parameter = _parameter(setting, component, report)
+        value = _value(setting, parameter, report) if parameter else None
+        if value is None or parameter is None:
+            continue
+        if parameter.is_path and value:
+            path = search.find(str(value), setting, report)
+            value = str(path or value)
+            paths += [path] if path else []
+        settings.append((setting.key.text, value))
+    return tuple(settings), tuple(dict.fromkeys(paths))
 
 
-def _value(setting: Setting, component: Component, report: Report) -> types.Literal | None:
+def _parameter(setting: Setting, component: Component, report: Report) -> Parameter | None:
     try:
-        parameter = _find(setting.key.text, component)
+        return _find(setting.key.text, component)
     except _Unknown as unknown:
         report.add(
             codes.UNKNOWN_SETTING,
@@ -62,6 +75,9 @@ def _value(setting: Setting, component: Component, report: Report) -> types.Lite
             help=unknown.way_out,
         )
         return None
+
+
+def _value(setting: Setting, parameter: Parameter, report: Report) -> types.Literal | None:
     try:
         value = _fit(setting, parameter)
         check_range(value, parameter)

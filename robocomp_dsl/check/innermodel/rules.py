@@ -24,22 +24,54 @@ from robocomp_dsl.model.innermodel import (
     PrismaticJoint,
     Skin,
     Taxel,
+    TouchSensor,
     Transform,
     Ultrasound,
     children,
 )
+from robocomp_dsl.model.touch_shapes import feels, shapes_in
 from robocomp_dsl.source import Span
 
 
 def check_innermodel_rules(model: InnerModel, report: Report) -> None:
-    """Check the rules of `body`."""
-    for node, parent in model.nodes():
-        for message in _violations(node, parent):
-            report.add(codes.INNERMODEL_RULE, _place(node), message)
+    """Check the rules of `model`."""
+    check_nodes(model, report)
+    for node, _ in model.nodes():
+        if isinstance(node, TouchSensor) and not feels(node):
+            _report_touch(node, report)
+        if isinstance(node, Joint | PrismaticJoint):
+            _check_home(node, report)
     if any(isinstance(node, Patch) for node, _ in model.nodes()):
         from robocomp_dsl.check.innermodel.skins import check_skins  # noqa: PLC0415 - numpy
 
         check_skins(model, report)
+
+
+def _report_touch(node: TouchSensor, report: Report) -> None:
+    shape = next(shapes_in(node), None)
+    remedy = (
+        f'set `collide="1"` on `{shape.id}`'
+        if shape
+        else 'put a `<plane>` or a `<mesh>` with `collide="1"` into it'
+    )
+    message = f"`{node.id}` would never feel anything: no shape in it collides"
+    report.add(codes.INNERMODEL_TOUCH, _place(node), message, help=remedy)
+
+
+def check_nodes(model: InnerModel, report: Report) -> None:
+    """Check the attributes of all nodes; files that they name are not read."""
+    for node, parent in model.nodes():
+        for message in violations(node, parent):
+            report.add(codes.INNERMODEL_RULE, _place(node), message)
+
+
+def _check_home(joint: Joint | PrismaticJoint, report: Report) -> None:
+    home, low, high = joint.home, joint.min, joint.max
+    if home is None or low > high or low <= home <= high:
+        return
+    near = low if home < low else high
+    message = f"`home` ({home:g}) is outside `min` … `max`: that of `{joint.id}` is {near:g}"
+    report.add(codes.INNERMODEL_HOME, _place(joint), message)
 
 
 def _place(node: Node) -> Span:
@@ -47,7 +79,8 @@ def _place(node: Node) -> Span:
     return source.span(start, start + 1 + len(node.tag))
 
 
-def _violations(node: Node, parent: Node | None) -> list[str]:
+def violations(node: Node, parent: Node | None) -> list[str]:
+    """What is inconsistent in the attributes of a node, one message each."""
     match node:
         case Skin():
             return _skin(node, parent)
@@ -71,6 +104,8 @@ def _robocomp_violations(node: Node, parent: Node | None) -> list[str]:
             ]
         case Motor() if not isinstance(parent, Joint | PrismaticJoint):
             messages += ["a motor must be a child of the joint that it drives"]
+        case Motor() if min(node.force, node.gear, node.velocity) <= 0:
+            messages += ["`force`, `gear` and `velocity` of a motor must be positive"]
         case Transform() if node.mass < 0:
             messages += [f"`mass` must not be negative, not {node.mass:g} kg"]
         case Plane() if not all(map(math.isfinite, node.size)):

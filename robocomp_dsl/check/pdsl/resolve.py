@@ -15,12 +15,18 @@ from robocomp_dsl.check.pdsl.values import as_kind
 from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.diagnostics import Report, nearest
-from robocomp_dsl.model.parameter import Kind, Parameter, ParameterSet
+from robocomp_dsl.model.parameter import PATH, Kind, Parameter, ParameterSet
 from robocomp_dsl.model.types import Literal
 from robocomp_dsl.syntax.ast import pdsl as ast
 from robocomp_dsl.syntax.ast.base import Name, Number
 
-KINDS = {"string": Kind.STRING, "int": Kind.INT, "float": Kind.FLOAT, "bool": Kind.BOOL}
+KINDS = {
+    "string": Kind.STRING,
+    PATH: Kind.STRING,
+    "int": Kind.INT,
+    "float": Kind.FLOAT,
+    "bool": Kind.BOOL,
+}
 _FOREIGN = {
     "double": "float",
     "real": "float",
@@ -30,7 +36,7 @@ _FOREIGN = {
     "boolean": "bool",
     "str": "string",
     "text": "string",
-    "path": "string",
+    "file": PATH,
 }
 _NUMBERS = (Kind.INT, Kind.FLOAT)
 
@@ -91,6 +97,7 @@ def _parameter(tree: ast.Parameter, report: Report) -> Parameter | None:
         live=tree.live,
         choices=choices,
         doc=tree.doc,
+        is_path=isinstance(tree.type, Name) and tree.type.text.lower() == PATH,
     )
     check_parameter(tree, parameter, report)
     return parameter

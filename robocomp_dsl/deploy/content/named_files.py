@@ -67,6 +67,7 @@ class NamedFileFinder:
         """
         files = [NamedFile(place_of(config), str(config))] if config else []
         files += [NamedFile(place_of(folder / path), str(path)) for path in instance.files]
+        files += [NamedFile(place_of(path), str(path)) for path in instance.setting_paths]
         files += self._monitors.get(instance.full_name, ())
         key = (instance.executable, folder)
         if key not in self._programs:

@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 from robocomp_dsl.deploy import status
 from robocomp_dsl.deploy.engine import DeploymentStatus, EngineError, StopResult
 from robocomp_dsl.deploy.hosts import registry
+from robocomp_dsl.deploy.hosts.commands import CONNECT_SILENCE_S
 from robocomp_dsl.deploy.hosts.denials import latest_denials
 from robocomp_dsl.deploy.hosts.description import all_components
 from robocomp_dsl.deploy.hosts.differences import stored_manifest
@@ -44,8 +45,8 @@ from robocomp_dsl.deploy.selection import NoSuchComponent, select_names
 from robocomp_dsl.deploy.status import ProcessStatus, format_duration
 from robocomp_dsl.deploy.units import names as unit_names
 
-STATUS_TIMEOUT_S = 5.0
-"""A host that does not answer within this time is shown as unreachable."""
+STATUS_SILENCE_S = 5.0
+"""A host that answers nothing for so long is shown as unreachable."""
 Result = TypeVar("Result")
 Report = Callable[[str], object]
 
@@ -96,7 +97,7 @@ class HostEngine:
         return run_async(self._status())
 
     async def _status(self) -> DeploymentStatus:
-        async with self._fleet(STATUS_TIMEOUT_S) as fleet:
+        async with self._fleet(STATUS_SILENCE_S) as fleet:
             reports = await fleet.reports(usage=True)
             denials = await latest_denials(fleet, reports)
         order = {name: i for i, name in enumerate(self.components())}
@@ -234,8 +235,8 @@ class HostEngine:
                 await show_last_lines(fleet, component, report)
         return result
 
-    def _fleet(self, timeout_s: float = 10.0) -> Any:
-        return open_fleet(self.deployment.hosts, self.name, timeout_s)
+    def _fleet(self, silence_s: float = CONNECT_SILENCE_S) -> Any:
+        return open_fleet(self.deployment.hosts, self.name, silence_s)
 
     async def _deployed(self, fleet: Fleet) -> tuple[dict[str, HostManifest], dict[str, UnitState]]:
         """What is deployed on the hosts that answer, and the states of components; locks them."""

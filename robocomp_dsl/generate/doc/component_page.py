@@ -121,6 +121,8 @@ def _facts(component: Component, site: DocumentationSite) -> Iterator[tuple[str,
 def _port(port: Port, site: DocumentationSite) -> TableRow:
     groups: dict[Pattern, list[Inlines]] = {}
     for operation, words in operation_links(port.interface, site):
+        if operation not in port.operations:  # a topic has no operations with outputs
+            continue
         groups.setdefault(port.pattern(operation), []).append(words)
     spoken = join_inlines(
         (
@@ -179,7 +181,7 @@ def _type(parameter: Parameter) -> Inlines:
         return (PlainText("one of "), *join_inlines(map(inline_code, parameter.choices)))
     if parameter.kind is Kind.GROUP:
         return plain_text(params.takes(parameter).removeprefix("a "))
-    return inline_code(parameter.kind.value)
+    return inline_code(parameter.type_name)
 
 
 def _default(parameter: Parameter) -> Inlines:

@@ -48,6 +48,7 @@ def component_files(component: Component, middleware: str) -> list[OutputFile]:
         *([_file(f"{package}/machine.py", machine=code.machine)] if code.machine else []),
         OutputFile("etc/config.schema.json", schema),
         _file("specificworker.py", write_once=True, worker=code),
+        *([_file("mainUI.ui", write_once=True, worker=code)] if code.window else []),
         _file("etc/config.yaml", "config.yaml", write_once=True, title=code.title, lines=config),
         _file("README.md", write_once=True, worker=code, parameters=rows),
     ]

@@ -28,7 +28,7 @@ def _signature_types(py_names: PythonNames) -> set[str]:
 
 def generic_imports(component: Component, py_names: PythonNames) -> Iterator[str]:
     """The imports of `genericworker.py`, relative to the other generated modules."""
-    runtime = {"Component", "ComponentSpec"}
+    runtime = {"ComponentSpec"} if component.gui else {"Component", "ComponentSpec"}
     runtime |= {"CalledPort"} if py_names.proxies else set()
     runtime |= {"ServedPort"} if len(py_names.proxies) < len(component.ports) else set()
     used = _signature_types(py_names)
@@ -38,6 +38,8 @@ def generic_imports(component: Component, py_names: PythonNames) -> Iterator[str
     yield _import("robocomp_dsl.runtime", runtime)
     if py_names.handlers:
         yield "from robocomp_dsl.runtime import types as rt"
+    if component.gui:
+        yield "from robocomp_dsl.runtime.gui.window import QtWidgets, Window"
     yield ""
     if used:
         yield _import(".interfaces", used)

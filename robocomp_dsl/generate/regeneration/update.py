@@ -35,6 +35,7 @@ from robocomp_dsl.model.component import Component
 from robocomp_dsl.source import Source, UnreadableSource
 
 WORKER = "specificworker.py"
+FORM = "mainUI.ui"
 
 
 def update_user_files(
@@ -57,7 +58,7 @@ def update_user_files(
     files = package_rename.renamed(folder, py_names.package, files, report)
     methods = methods_of(component, py_names) if methods is None else methods
     known = manifest.read(folder, report, recorded)
-    others = [file for file in files if file.path != WORKER]
+    others = [file for file in files if file.path != WORKER and not _is_replaced(file, folder)]
     worker_files = [file for file in files if file.path == WORKER]
     try:
         user = user_module.read(folder / WORKER, report)
@@ -84,6 +85,11 @@ def update_user_files(
     signatures = known if unread else manifest.of_now(methods, known, user)
     record = manifest.file_of(signatures, recorded)
     return [*worker_files, *merge.merged(folder, others, report, writes=writes), record]
+
+
+def _is_replaced(file: OutputFile, folder: Path) -> bool:
+    """Whether the folder has the form of the window where RoboComp has it."""
+    return file.path == FORM and (folder / "src" / FORM).is_file()
 
 
 def _with_new_imports(

@@ -10,8 +10,10 @@ import math
 from dataclasses import fields
 from typing import Any
 
+from robocomp_dsl.generate.scene.frames import lower_frame
 from robocomp_dsl.generate.scene.skin import lower_skin
 from robocomp_dsl.model import innermodel
+from robocomp_dsl.model.touch_shapes import feels
 
 Data = dict[str, Any]
 
@@ -33,9 +35,11 @@ def lower_body(source: innermodel.InnerModel) -> Data:
 def _lower(node: innermodel.Node, parent: innermodel.Node, data: Data, taken: set[str]) -> None:
     match node:
         case innermodel.Transform() | innermodel.PrismaticJoint():
-            data["frames"].append(_frame(node, parent))
+            data["frames"].append(lower_frame(node, parent))
         case innermodel.TouchSensor():
             data["frames"].append({"id": node.id, "parent": parent.id})
+            if not feels(node):
+                return  # the checks report it
         case innermodel.Plane():
             data["boxes"].append(_box(node, parent))
         case innermodel.Mesh():
@@ -66,30 +70,6 @@ _DEVICES = (
     innermodel.Battery,
     innermodel.PointCloud,
 )
-
-
-def _frame(node: innermodel.Transform | innermodel.PrismaticJoint, parent: innermodel.Node) -> Data:
-    frame: Data = {"id": node.id, "parent": parent.id}
-    if isinstance(node, innermodel.PrismaticJoint):
-        place = [0.0, 0.0, 0.0]
-        place["xyz".index(node.axis)] = node.position + node.offset
-        return frame | {"place": place, "motion": _motion(node, "slide", node.offset)}
-    frame["place"] = [node.tx, node.ty, node.tz]
-    frame["turn"] = [node.rx, node.ry, node.rz]
-    if isinstance(node, innermodel.Joint):
-        frame["motion"] = _motion(node, "hinge", 0.0)
-    if node.mass > 0:
-        frame["mass"] = node.mass
-    return frame | {"drives": isinstance(node, innermodel.Base), "physics": node.engine == "bullet"}
-
-
-def _motion(node: innermodel.Joint | innermodel.PrismaticJoint, kind: str, offset: float) -> Data:
-    motion: Data = {"kind": kind, "axis": node.axis, "home": node.home, "offset": offset}
-    limits: Data = {"low": node.min, "high": node.max}
-    for child in node.children:
-        if isinstance(child, innermodel.Motor):
-            limits |= {"force": child.force, "gear": child.gear, "velocity": child.velocity}
-    return motion | {name: value for name, value in limits.items() if math.isfinite(value)}
 
 
 def _box(node: innermodel.Plane, parent: innermodel.Node) -> Data:
@@ -150,12 +130,12 @@ def _axes_boxes(node: innermodel.Axes, parent: innermodel.Node, taken: set[str])
 
 
 def _device(node: innermodel.Node, parent: innermodel.Node) -> Data:
-    """A device; its settings are the node's attributes without infinite values."""
+    """A device; its settings are the node's attributes without absent and infinite values."""
     settings = {
         field.name: value
         for field in fields(node)
         if field.name not in _NOT_SETTINGS
-        and not isinstance(value := getattr(node, field.name), tuple)
+        and not isinstance(value := getattr(node, field.name), tuple | None)
         and not (isinstance(value, float) and math.isinf(value))
     }
     frame = node.id if innermodel.is_frame(node) else parent.id

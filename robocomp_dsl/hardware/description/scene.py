@@ -10,9 +10,10 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from robocomp_dsl.hardware.description.scene_skin import Skin
+if TYPE_CHECKING:
+    from robocomp_dsl.hardware.description.scene_skin import Skin
 
 Axis: TypeAlias = Literal["x", "y", "z"]
 Triple: TypeAlias = tuple[float, float, float]
@@ -39,7 +40,7 @@ class Motion:
     home: float = 0.0
     offset: float = 0.0
     force: float = math.inf
-    gear: float = 1.0
+    gear: float = 100.0
     velocity: float = math.inf
 
 
@@ -144,18 +145,27 @@ class Scene:
         """The scene in `data`, as `generate.scene` produces it; `folder` holds the model file."""
         model = data.get("model")
         return cls(
-            tuple(_frame(entry) for entry in data["frames"]),
+            tuple(frame_of_data(entry) for entry in data["frames"]),
             tuple(Box(**_tuples(entry)) for entry in data["boxes"]),
             tuple(Mesh(**_tuples(entry)) for entry in data["meshes"]),
             tuple(Device(**entry) for entry in data["devices"]),
             Model(**model | {"file": folder / model["file"]}) if model else None,
-            tuple(Skin.of_data(entry) for entry in data.get("skins", ())),
+            _skins(data.get("skins", ())),
         )
 
 
-def _frame(entry: Mapping[str, Any]) -> Frame:
+def frame_of_data(entry: Mapping[str, Any]) -> Frame:
+    """The frame in `entry`, as `generate.scene` produces it."""
     motion = entry.get("motion")
     return Frame(**_tuples(entry) | {"motion": Motion(**motion) if motion else None})
+
+
+def _skins(entries: Sequence[Mapping[str, Any]]) -> tuple[Skin, ...]:
+    if not entries:
+        return ()
+    from robocomp_dsl.hardware.description.scene_skin import Skin  # noqa: PLC0415 - tactile, YAML
+
+    return tuple(Skin.of_data(entry) for entry in entries)
 
 
 def _tuples(entry: Mapping[str, Any]) -> dict[str, Any]:

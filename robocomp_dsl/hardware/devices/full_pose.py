@@ -10,7 +10,7 @@ import numpy as np
 from robocomp_dsl.hardware.description.scene import Triple
 from robocomp_dsl.hardware.devices.mobile_base import MobileBaseDevice
 from robocomp_dsl.hardware.kinematics.planar import Pose
-from robocomp_dsl.hardware.kinematics.rotations import Matrix, angles, pose_rows
+from robocomp_dsl.hardware.kinematics.rotations import Matrix, heading, pose_rows
 
 _REST = (0.0, 0.0, 0.0)
 
@@ -58,4 +58,4 @@ class FloorPose:
     def set_full_pose(self, matrix: Matrix) -> None:
         """Set the corrected pose from the planar part of the matrix."""
         x, _, z = matrix[:3, 3].tolist()
-        self._base.correct(Pose(x, z, angles(matrix[:3, :3])[1]))
+        self._base.correct(Pose(x, z, heading(matrix[:3, :3])))

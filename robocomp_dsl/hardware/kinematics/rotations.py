@@ -34,7 +34,25 @@ def rotation(rx: float, ry: float, rz: float) -> Matrix:
 
 
 def angles(turned: Matrix) -> tuple[float, float, float]:
-    """rx, ry, rz of a rotation matrix; if ry is ±90°, rz is set to 0.
+    """rx, ry, rz of a rotation matrix, shape (3, 3), in rad.
+
+    A rotation has two solutions: (rx, ry, rz) with |ry| up to 90° and (rx + 180°, 180° - ry,
+    rz + 180°). The one of the smaller Euclidean norm is returned, as by RoboComp's
+    `QMat::extractAnglesR_min`: a rotation about one axis has one angle in [-π, π] and two zeros.
+    If ry is ±90°, rz is set to 0.
+    """
+    rx, ry, rz = _principal(turned)
+    other = _opposite(rx), math.copysign(math.pi, ry) - ry, _opposite(rz)
+    return other if math.hypot(*other) < math.hypot(rx, ry, rz) else (rx, ry, rz)
+
+
+def heading(turned: Matrix) -> float:
+    """The direction of the z axis seen from above, about y from z to x, in rad; shape (3, 3)."""
+    return math.atan2(turned[0, 2], turned[2, 2])
+
+
+def _principal(turned: Matrix) -> tuple[float, float, float]:
+    """The solution with |ry| up to 90°.
 
     ry and rz are computed after rx is undone, so that the three reproduce `turned` to the last
     digits even if ry is nearly ±90° and rx alone is ill-conditioned.
@@ -45,7 +63,11 @@ def angles(turned: Matrix) -> tuple[float, float, float]:
     sx, cx = math.sin(rx), math.cos(rx)
     ry = math.atan2(row[0][2], cx * row[2][2] - sx * row[1][2])
     rz = math.atan2(cx * row[1][0] + sx * row[2][0], cx * row[1][1] + sx * row[2][1])
-    return rx, ry, rz
+    return rx + 0.0, ry + 0.0, rz + 0.0  # without negative zeros
+
+
+def _opposite(angle: float) -> float:
+    return angle - math.copysign(math.pi, angle)
 
 
 def inverse(pose: Matrix) -> Matrix:

@@ -93,6 +93,18 @@ class TransformTree:
         node.pose[_index(node)] = value + _motion(node).offset
         self._changed(node)
 
+    def copy(self) -> TransformTree:
+        """An independent tree with the same frames and poses."""
+        twin = TransformTree()
+        twin._nodes = nodes = {
+            node.id: _Node(node.id, None, list(node.pose), node.motion)
+            for node in self._nodes.values()
+        }
+        for node in self._nodes.values():
+            nodes[node.id].parent = nodes[node.parent.id] if node.parent else None
+            nodes[node.id].children = {child: nodes[child] for child in node.children}
+        return twin
+
     # -- asking -------------------------------------------------------------------------------
 
     def __contains__(self, frame: object) -> bool:
@@ -109,6 +121,10 @@ class TransformTree:
         """The parent of `frame`; empty for the root."""
         above = self._node(frame).parent
         return above.id if above else ""
+
+    def local(self, frame: str) -> tuple[float, ...]:
+        """The pose in the parent, as set: x, y, z, rx, ry, rz."""
+        return tuple(self._node(frame).pose)
 
     def joint(self, frame: str) -> float:
         """The value that `set_joint` sets."""

@@ -59,4 +59,4 @@ def parameter_candidates(
     kind = lsp.CompletionItemKind.Property
     for parameter in parameters:
         symbol = parameter_symbol(parameter, container)
-        yield CompletionCandidate(parameter.name, kind, parameter.kind.value, symbol)
+        yield CompletionCandidate(parameter.name, kind, parameter.type_name, symbol)

@@ -23,7 +23,7 @@ def format_parameter(parameter: Parameter) -> str:
     choices = f"{{{', '.join(parameter.choices)}}}"
     parts = [
         parameter.name,
-        choices if parameter.kind is Kind.CHOICE else parameter.kind.value,
+        choices if parameter.kind is Kind.CHOICE else parameter.type_name,
         "" if parameter.default is None else _literal(parameter),
         f"[{parameter.unit}]" if parameter.unit else "",
         _range(parameter),

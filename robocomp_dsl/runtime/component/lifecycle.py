@@ -15,10 +15,12 @@ import threading
 import time
 from collections.abc import Callable
 from enum import StrEnum
+from functools import partial
 from typing import Protocol
 
 from robocomp_dsl.runtime.clock import CLOCK_LOST, NANO, TIME_DIGITS, Clock, WakeEvent
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.hook_thread import HookThread
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.component.user_errors import describe_error, log_error, log_failure
@@ -74,14 +76,15 @@ class Lifecycle:
         hooks: Hooks,
         period_ms: float,
         clock: Clock,
-        callback_group: CallbackGroup,
+        hook_thread: HookThread,
         statistics: Statistics,
         publish_state: Callable[[LifecycleState], None],
     ) -> None:
         self._hooks = hooks
         self.period_ms = period_ms
         self._clock = clock
-        self._callback_group = callback_group
+        self._hook_thread = hook_thread
+        self._callback_group = hook_thread.callback_group
         self.statistics = statistics
         self._publish_state = publish_state
         self.machine: Machine | None = None
@@ -266,9 +269,12 @@ class Lifecycle:
         self._transition_to(LifecycleState.COMPUTE)
 
     def _run_guarded(self, action: Callable[[], None]) -> None:
-        try:
+        def run() -> None:
             with self._callback_group:
                 action()
+
+        try:
+            self._hook_thread.call(run)
         except BaseException as error:
             if self._stopping.is_set():
                 return
@@ -299,6 +305,9 @@ class Lifecycle:
     def _call_hook(
         self, hook: Callable[[], None], name: str, slot_timeout_s: float | None = None
     ) -> bool:
+        return self._hook_thread.call(partial(self._run_hook, hook, name, slot_timeout_s))
+
+    def _run_hook(self, hook: Callable[[], None], name: str, slot_timeout_s: float | None) -> bool:
         group = self._callback_group
         entered = group.enter(slot_timeout_s)
         try:

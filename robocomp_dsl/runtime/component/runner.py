@@ -21,6 +21,7 @@ from robocomp_dsl.runtime.component.component import Component
 from robocomp_dsl.runtime.component.component_interface import COMPONENT
 from robocomp_dsl.runtime.component.connections_servant import ConnectionsServant
 from robocomp_dsl.runtime.component.hang_report import HangReport
+from robocomp_dsl.runtime.component.hook_thread import HookThread, LifecycleThread
 from robocomp_dsl.runtime.component.introspection import Introspection
 from robocomp_dsl.runtime.component.lifecycle import (
     SLOT_TIMEOUT_S,
@@ -70,13 +71,15 @@ class Runner:
         settings: RunSettings,
         clock: Clock | None = None,
         supervision: Supervision | None = None,
+        hook_thread: HookThread | None = None,
     ) -> None:
         self.spec = component.SPEC
         self.name = settings.full_name(self.spec.name)
         self.wiring = Wiring(self.name, self.spec, settings)
         self.params = params
         self.statistics = Statistics()
-        self.callback_group = CallbackGroup(self.spec.threads)
+        self._hook_thread = hook_thread or LifecycleThread(CallbackGroup(self.spec.threads))
+        self.callback_group = self._hook_thread.callback_group
         self.started = time.time()
         self.abandoned = False
         self.hang: HangReport | None = None
@@ -116,7 +119,7 @@ class Runner:
             self.worker,
             self.spec.period,
             self.worker.clock,
-            self.callback_group,
+            self._hook_thread,
             self.statistics,
             self._publish_state,
         )
@@ -295,6 +298,7 @@ class Runner:
     def _abandon_hook(self, timeout: float) -> None:
         """Call `finalize` beside the hook that did not return within `timeout` s."""
         self.abandoned = True
+        self._hook_thread.abandon()
         life = self.lifecycle
         log.error("%s did not return within %g s; exiting anyway", life.state.value, timeout)
         threading.Thread(
@@ -305,7 +309,10 @@ class Runner:
 
     def _activity_of(self, thread: int) -> str:
         """What a thread in the callback group does; "" for a hook that is exempt."""
-        if thread == self._thread.ident:
+        activity = self._hook_thread.activity_of(thread)
+        if activity == "slot":
+            return "a slot of the window"
+        if activity or thread == self._thread.ident:
             state = self.lifecycle.state
             watched = state not in (LifecycleState.INITIALIZE, LifecycleState.FINALIZE)
             return state.value if watched else ""
@@ -316,6 +323,7 @@ class Runner:
     def _on_hang(self, report: HangReport) -> None:
         """End the component; `finalize` runs beside the thread that hangs."""
         self.hang, self.abandoned = report, True
+        self._hook_thread.abandon()
         self._hangs.report(report)
         stack = "\n".join(report.stack)
         self.fail(f"watchdog: {report.summary()}\n{stack}")

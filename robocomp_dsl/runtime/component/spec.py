@@ -42,6 +42,7 @@ class ComponentSpec:
     """One component. `period` in ms, 0: `compute` is not called; `threads` run at a time.
 
     `watchdog`: after so many seconds a callback that has not returned hangs; 0: no watchdog.
+    `has_window`: the class of the worker is a window of Qt.
     `connections`, `addresses` and `qualities` are as after `--connect`, `--address` and `--qos`;
     the command line overrides them for each port.
     """
@@ -58,6 +59,7 @@ class ComponentSpec:
     version: str = ""
     machine: MachineSpec | None = None
     watchdog: float = 0.0
+    has_window: bool = False
     connections: tuple[str, ...] = ()
     addresses: tuple[str, ...] = ()
     qualities: tuple[str, ...] = ()

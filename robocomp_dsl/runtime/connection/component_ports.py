@@ -183,7 +183,9 @@ class ComponentPorts:
         check_qos(at, "client", at.middlewares)
         registry_ = self.presence.registry
         selector = ServerSelector(at, registry_, self._context.callback_group, is_usable)
-        channel = ServiceChannel(self._context, registry_, selector, self._connect)
+        channel = ServiceChannel(
+            self._context, registry_, selector, self._connect, self.presence.shapes_of
+        )
         self.channels.append(channel)
         return channel
 
@@ -237,6 +239,7 @@ class ComponentPorts:
         )
         if role == "subscriber" and at.external and not at.peers:
             return record  # connected to external programs only: no component publishes to it
+        self.presence.offer_shapes(at.interface)
         self.presence.declare(record)
         return record
 

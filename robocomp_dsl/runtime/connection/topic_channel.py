@@ -11,12 +11,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from robocomp_dsl.runtime.component.interface import Operation
+from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.latched_messages import LatchedMessages
 from robocomp_dsl.runtime.connection.peer_selection import matches
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
+from robocomp_dsl.runtime.errors import NotPublishable
 from robocomp_dsl.runtime.middleware.capabilities import Capabilities
 from robocomp_dsl.runtime.middleware.transport import Publisher
 from robocomp_dsl.runtime.presence.port_record import PortRecord
@@ -64,6 +65,8 @@ class TopicChannel:
 
     def bind(self, operation: Operation) -> OperationCallable:
         """See `ports.Channel`."""
+        if operation.pattern is Pattern.QUERY:
+            return self._not_publishable(operation)
         functions = [self._bind_port(i, operation) for i in range(len(self._ports))]
         publish = self._publication(operation, functions)
 
@@ -85,6 +88,18 @@ class TopicChannel:
             publish(*arguments)
 
         return attach_and_publish
+
+    def _not_publishable(self, operation: Operation) -> OperationCallable:
+        """An operation of the interface that is not part of the topic, because it has a reply."""
+        at = self._at
+
+        def fail(*_arguments: Any) -> None:
+            raise NotPublishable(
+                f"{operation.name} of {at.interface.name} returns something, so the topic {at.name}"
+                " does not have it; a component that requires the interface can call it"
+            )
+
+        return fail
 
     def _publication(
         self, operation: Operation, functions: list[OperationCallable]

@@ -45,8 +45,8 @@ class LegacyWorker(Component):
 
     timer: Any
     mutex: Any
-    kill: BoundSignal
-    destroyed: BoundSignal
+    kill: Any
+    destroyed: Any
     Period: int
     defaultMachine: DefaultMachine
     t_initialize_to_compute: MachineSignal

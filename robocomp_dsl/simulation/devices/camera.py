@@ -55,12 +55,19 @@ class Camera:
         spec.visual.global_.offwidth = max(spec.visual.global_.offwidth, width)
         spec.visual.global_.offheight = max(spec.visual.global_.offheight, height)
         add_lighting(spec)
-        if self._model_camera:
-            return
+        if not self._model_camera:
+            self.place(spec)
+
+    def place(self, spec: Any) -> None:
+        """Add only the camera itself, for a viewer with pictures of its own size."""
+        width, height = self._settings.width, self._settings.height
         angle = 2 * np.degrees(np.arctan2(height / 2, self._settings.focal))
         # MuJoCo's cameras look along -z with y up; z ahead of RoboComp is its y
         spec.body(self._at).add_camera(
-            name=self.name, fovy=float(angle), quat=[np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0]
+            name=self.name,
+            fovy=float(angle),
+            quat=[np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0],
+            resolution=[width, height],
         )
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
@@ -92,7 +99,7 @@ class Camera:
                 return known
             model = self._model
             data = mujoco.MjData(model)
-            for field in ("qpos", "qvel", "time"):
+            for field in ("qpos", "qvel", "mocap_pos", "mocap_quat", "time"):
                 setattr(data, field, getattr(self._data, field))
         self._latest = self._noisy(
             self._renderer.render(model, data, self._model_camera or self.name)

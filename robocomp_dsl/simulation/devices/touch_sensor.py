@@ -14,6 +14,7 @@ import mujoco
 import numpy as np
 
 from robocomp_dsl.hardware.description.scene import Triple
+from robocomp_dsl.hardware.devices.errors import SceneError
 from robocomp_dsl.simulation.devices.laser import mount_on
 from robocomp_dsl.simulation.scene import axes
 
@@ -44,7 +45,16 @@ class TouchSensor:
     # -- as a part of the world ---------------------------------------------------------------
 
     def build(self, spec: Any) -> None:
-        """Nothing to add: the shapes in its frame are the sensor."""
+        """Nothing to add: the shapes in its frame are the sensor. Raises `SceneError` without."""
+        todo = [spec.body(self._at)]
+        for body in todo:
+            if any(geom.contype or geom.conaffinity for geom in body.geoms):
+                return
+            todo.extend(body.bodies)
+        raise SceneError(
+            f"`{self.name}` would never feel anything: no shape in it collides "
+            "(a mesh that cannot be read does not)"
+        )
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:  # noqa: ARG002
         """Find the frame."""

@@ -1,7 +1,7 @@
 """Reads MJCF files, and replaces missing meshes and textures.
 
 In: the path of an MJCF file. Out: its `MjSpec`, in which meshes that MuJoCo cannot read are boxes
-and missing textures are dropped, with findings.
+or markers, and missing textures are dropped, with findings.
 """
 
 from __future__ import annotations
@@ -17,9 +17,11 @@ import numpy as np
 from robocomp_dsl.finding import Finding
 from robocomp_dsl.hardware.description.findings import ModelFileError, model_finding
 from robocomp_dsl.hardware.description.model_paths import resolve
-from robocomp_dsl.hardware.formats.mesh_file import MeshError, read_surface
-from robocomp_dsl.simulation.models.mesh_geom import MeshCache, is_flat
+from robocomp_dsl.hardware.formats.mesh_file import read_surface
+from robocomp_dsl.hardware.formats.surface import MeshError, used_part
+from robocomp_dsl.simulation.models.mesh_geom import MeshCache, Settings, is_flat
 
+_POINT = 1e-6  # m
 _ITS_OWN = {".obj", ".msh"}
 _LINE = re.compile(r"line(?: number=|\s+)(\d+)", re.IGNORECASE)
 
@@ -48,38 +50,64 @@ def _replace_meshes(
     spec: Any, path: Path, packages: Sequence[Path], findings: list[Finding]
 ) -> None:
     shelf = MeshCache(spec, findings)
-    boxes: dict[str, tuple[Any, dict[str, Any]]] = {}
+    boxes: dict[str, Settings] = {}
+    unreadable: dict[str, Path] = {}
     for mesh in list(spec.meshes):
-        if not mesh.file:
-            continue
-        folder = "" if "://" in mesh.file else spec.meshdir
-        file = resolve(str(Path(folder) / mesh.file) if folder else mesh.file, path, packages)
-        if file.suffix.lower() in _ITS_OWN and file.is_file():
-            mesh.file = str(file.absolute())
-            continue
-        if file.suffix.lower() == ".stl" and _mesh_source(mesh, file):
+        file = _mesh_path(spec, mesh, path, packages)
+        if not mesh.file or _reads(mesh, file):
             continue
         name = mesh.name or file.stem
-        replacement = shelf.geom(file, tuple(mesh.scale.tolist()), name, _line(mesh))
-        if replacement["type"] == mujoco.mjtGeom.mjGEOM_BOX:
-            boxes[name] = mesh, replacement
+        box = shelf.geom(file, tuple(mesh.scale.tolist()), name, _line(mesh))
+        if box is None:
+            unreadable[name] = file
+        else:
+            boxes[name] = box
+        spec.delete(mesh)
     for geom in list(spec.geoms):
         if geom.meshname in boxes:
-            _, replacement = boxes[geom.meshname]
-            geom.meshname = ""
-            geom.type, geom.size = replacement["type"], replacement["size"]
-            turn = np.zeros(9)
-            mujoco.mju_quat2Mat(turn, geom.quat / np.linalg.norm(geom.quat))
-            geom.pos = geom.pos + turn.reshape(3, 3) @ replacement["shift"]
-            geom.rgba = replacement.get("rgba", geom.rgba)
-    for mesh, _ in boxes.values():
-        spec.delete(mesh)
+            _show_box(geom, boxes[geom.meshname])
+        elif geom.meshname in unreadable:
+            shelf.mark(geom.parent, unreadable[geom.meshname], geom.pos)
+            _hide(geom)
+
+
+def _mesh_path(spec: Any, mesh: Any, path: Path, packages: Sequence[Path]) -> Path:
+    folder = "" if "://" in mesh.file else spec.meshdir
+    return resolve(str(Path(folder) / mesh.file) if folder else mesh.file, path, packages)
+
+
+def _reads(mesh: Any, file: Path) -> bool:
+    """Whether MuJoCo reads the mesh of a file itself, or has got its points."""
+    if file.suffix.lower() in _ITS_OWN and file.is_file():
+        mesh.file = str(file.absolute())
+        return True
+    return _mesh_source(mesh, file)
+
+
+def _show_box(geom: Any, box: Settings) -> None:
+    """Make the geom of a mesh a box."""
+    geom.meshname = ""
+    geom.type, geom.size = box["type"], box["size"]
+    turn = np.zeros(9)
+    mujoco.mju_quat2Mat(turn, geom.quat / np.linalg.norm(geom.quat))
+    geom.pos = geom.pos + turn.reshape(3, 3) @ box["shift"]
+
+
+def _hide(geom: Any) -> None:
+    """Make the geom of an unreadable mesh a point that nothing touches and no camera sees.
+
+    It stays in the model, because pairs and sensors may name it.
+    """
+    geom.meshname, geom.material = "", ""
+    geom.type, geom.size = mujoco.mjtGeom.mjGEOM_SPHERE, [_POINT, 0.0, 0.0]
+    geom.contype, geom.conaffinity, geom.density = 0, 0, 0.0
+    geom.rgba = [0.0, 0.0, 0.0, 0.0]
 
 
 def _mesh_source(mesh: Any, file: Path) -> bool:
-    """Set the points of a mesh from an STL file; MuJoCo reads only small binary STL files."""
+    """Set the points of a mesh from a file; MuJoCo reads OBJ and small binary STL files only."""
     try:
-        surface = read_surface(file)
+        surface = used_part(read_surface(file))
     except MeshError:
         return False
     if not len(surface.faces) or is_flat(surface.points):

@@ -1,10 +1,11 @@
 """The robots as worlds in MuJoCo's own format, for `rcgen simulator`: `python -m …robots.export`.
 
 In: the shipped robots. Out: for each an MJCF file beside its simulator in `components/`, and its
-tactile description for `--tactile`. A world has a floor, the robot with its root fixed above it,
-its control boards as tuples, its speed limits as numbers, and two fingers that can touch it: balls
-on three prismatic joints with at most 20 N, whose joint positions are world coordinates in m. The
-initial state is the key frame `start`.
+tactile description for `--tactile`; the robot alone beside its description in `descriptions/`,
+under the name that the description has in `model`. A world has a floor, the robot with its root
+fixed above it, its control boards as tuples, its speed limits as numbers, and two fingers that can
+touch it: balls on three prismatic joints with at most 20 N, whose joint positions are world
+coordinates in m. The initial state is the key frame `start`.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ import numpy as np
 
 from robocomp_dsl.simulation.robots.boards import board_names, robot_board
 from robocomp_dsl.simulation.robots.build import add_robot, new_world, quaternion
-from robocomp_dsl.simulation.robots.catalog import ROBOTS, description_file
+from robocomp_dsl.simulation.robots.catalog import ROBOTS, description, description_file
 from robocomp_dsl.simulation.robots.links import Floats, RobotModel, Vector
 
 FINGERS = ("finger", "finger2")
@@ -88,6 +89,19 @@ def text(world: RobotWorld) -> str:
     _add_sensors(spec, robot, world)
     for board, output in world.hands:
         spec.add_text(name=f"cartesian_{board}", data=output)
+    return _compiled_text(spec, robot)
+
+
+def robot_text(name: str) -> str:
+    """The robot `name` alone as a file in MJCF: the model of its tactile description."""
+    robot = ROBOTS[name]()
+    spec = new_world()
+    spec.modelname = name
+    add_robot(spec, robot)
+    return _compiled_text(spec, robot)
+
+
+def _compiled_text(spec: Any, robot: RobotModel) -> str:
     key = spec.add_key(name="start")
     key.qpos = _start(spec.compile(), robot)
     spec.compile()
@@ -96,6 +110,10 @@ def text(world: RobotWorld) -> str:
 
 def main(folder: Path = Path("components")) -> None:
     """Write all of them."""
+    for name in ROBOTS:
+        path = description_file(name).with_name(description(name).model)
+        path.write_text(robot_text(name), "utf-8")
+        sys.stdout.write(f"{path}\n")
     for world in WORLDS:
         path = folder / world.file
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
+from robocomp_dsl.hardware.description.falling import carrier
 from robocomp_dsl.hardware.description.scene import ROOT, Device, Frame, Scene
 from robocomp_dsl.hardware.devices.camera import CameraSettings
 from robocomp_dsl.hardware.devices.errors import SceneError
@@ -44,14 +45,8 @@ class DeviceContext:
     board: JointBoard | None = None
 
     def carrier(self, frame: str) -> str:
-        """The nearest moving frame from `frame` upwards; else `frame`."""
-        at = frame
-        while at and at != ROOT:
-            holder = self.frames[at]
-            if holder.drives or (holder.physics and holder.parent == ROOT):
-                return at
-            at = holder.parent
-        return frame
+        """The nearest base or falling frame from `frame` upwards; else `frame`."""
+        return frame if frame == ROOT else carrier(frame, self.frames)
 
 
 def _laser(site: DeviceContext, device: Device) -> Laser:
@@ -198,6 +193,30 @@ SINGLE: Mapping[str, Callable[[DeviceContext, Device], Any]] = {
     "cartesian": _cartesian,
 }
 """Kinds of devices that are simulated one by one."""
+
+
+def place_cameras(scene: Scene, spec: Any) -> None:
+    """Add the cameras of a scene to its specification, for a viewer: they take no pictures."""
+    site = DeviceContext({frame.id: frame for frame in scene.frames}, NoiseLevel())
+    for device in scene.devices:
+        if device.kind in {"camera", "rgbd"}:
+            _camera(site, device).place(spec)
+
+
+def unmoved(before: Scene, after: Scene, devices: Mapping[str, Any]) -> dict[str, Any]:
+    """The parts of the world that fit another scene: not those that are mounted elsewhere there."""
+    known, now = _mounts(before), _mounts(after)
+    return {id_: part for id_, part in devices.items() if known.get(id_) == now.get(id_)}
+
+
+def _mounts(scene: Scene) -> dict[str, tuple[Device, str]]:
+    """Each device that is simulated by itself, and the frame that carries it."""
+    site = DeviceContext({frame.id: frame for frame in scene.frames}, NoiseLevel())
+    return {
+        device.id: (device, site.carrier(device.frame))
+        for device in scene.devices
+        if device.kind in SINGLE
+    }
 
 
 def build_devices(

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.hardware.description.scene import ROOT, Scene
+from robocomp_dsl.hardware.description.falling import falls
+from robocomp_dsl.hardware.description.scene import Scene
 from robocomp_dsl.hardware.description.scene_skin import Mount, geometry_of
 from robocomp_dsl.hardware.devices.skin import SkinSettings
 from robocomp_dsl.simulation.devices.skin import SimulatedSkin
@@ -46,9 +47,9 @@ def _mount(limb: LimbFrame, scene: Scene) -> Mount:
     if any(holder.id == limb.body and holder.model_part for holder in scene.frames):
         return Mount(limb.name, body_name(limb.body), limb.origin, limb.axes, limb.covers)
     taken = {holder.body for skin in scene.skins for holder in skin.limbs}
-    held = {limb.body}
+    held, frames = {limb.body}, {frame.id: frame for frame in scene.frames}
     for frame in scene.frames:  # parents precede their children
-        moves = frame.motion or frame.drives or (frame.physics and frame.parent == ROOT)
+        moves = frame.motion or frame.drives or falls(frame, frames)
         if frame.parent in held and not moves and frame.id not in taken:
             held.add(frame.id)
     covers = tuple(sorted(body_name(frame) for frame in held - {limb.body}))

@@ -9,14 +9,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.description.scene import ROOT, Frame, Model, Motion, Scene, Triple
+from robocomp_dsl.hardware.description.falling import falls, loads
+from robocomp_dsl.hardware.description.scene import (
+    ROOT,
+    Frame,
+    Mesh,
+    Model,
+    Motion,
+    Scene,
+    Triple,
+)
 from robocomp_dsl.hardware.devices.errors import SceneError
-from robocomp_dsl.hardware.kinematics.rotations import rotation
+from robocomp_dsl.hardware.kinematics.rotations import Matrix, pose_rows, rotation
 from robocomp_dsl.simulation.models.start_spec import reload_spec
 from robocomp_dsl.simulation.scene import axes
 from robocomp_dsl.simulation.scene.axes import MM
@@ -24,6 +34,7 @@ from robocomp_dsl.simulation.scene.scene_shapes import add_box, add_mesh
 from robocomp_dsl.simulation.world.arena import reserve_arena
 
 _LIGHTEST = 1e-3  # kg: default mass of a moving frame
+_MOST_NAMED = 4
 _UNIT: dict[str, Triple] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
@@ -38,29 +49,53 @@ def build_spec(scene: Scene) -> tuple[Any, list[str]]:
     bodies = {body.name: body for body in spec.bodies} | {ROOT: spec.worldbody}
     degrees = math.degrees(1.0) if spec.compiler.degree else 1.0
     taken = {joint.name for joint in spec.joints} | {frame.id for frame in scene.frames}
-    into = _BuildContext(bodies, degrees, scene.model is not None, taken)
+    frames = {frame.id: frame for frame in scene.frames}
+    into = _BuildContext(
+        spec, bodies, frames, loads(scene.frames), degrees, scene.model is not None, taken
+    )
     try:
         for frame in scene.frames:
             if frame.id != ROOT and not frame.model_part:
                 bodies[frame.id] = _add_frame(into, frame, notes)
         for box in scene.boxes:
             add_box(spec, bodies[box.frame], box, notes)
+        deviating: dict[str, list[Mesh]] = {}
         for mesh in scene.meshes:
-            add_mesh(spec, bodies[mesh.frame], mesh, notes)
+            if deviation := add_mesh(spec, bodies[mesh.frame], mesh):
+                deviating.setdefault(deviation, []).append(mesh)
+        notes += (_mesh_note(meshes, text) for text, meshes in deviating.items())
     except ValueError as error:
         raise SceneError(f"MuJoCo cannot build the world: {error}") from None
     reserve_arena(spec, len(bodies))
     return spec, notes
 
 
+def _mesh_note(meshes: list[Mesh], deviation: str) -> str:
+    """One note for all meshes with the same deviation."""
+    first: dict[str, str] = {}
+    for mesh in meshes:
+        first.setdefault(mesh.file, mesh.id)
+    named = [f"`{id_}` ({Path(file).name})" for file, id_ in first.items()]
+    more = f" and {len(named) - _MOST_NAMED} more" if len(named) > _MOST_NAMED else ""
+    which = f"{', '.join(named[:_MOST_NAMED])}{more}"
+    return (
+        f"the mesh {which} is {deviation}"
+        if len(named) == 1
+        else (f"{len(named)} meshes, {which}, are each {deviation}")
+    )
+
+
 @dataclass(frozen=True, slots=True)
 class _BuildContext:
     """The specification under construction. Hinge angles are multiplied by `degrees`.
 
-    `taken` are the names of present and future joints.
+    `taken` are the names of present and future joints. The weight of `loads` is not compensated.
     """
 
+    spec: Any
     bodies: dict[str, Any]
+    frames: dict[str, Frame]
+    loads: frozenset[str]
     degrees: float
     weigh: bool
     taken: set[str]
@@ -71,6 +106,26 @@ class _BuildContext:
             name += "'"
         self.taken.add(name)
         return name
+
+    def in_world(self, frame: Frame) -> Matrix:
+        """The pose of a frame that nothing above it moves, shape (4, 4), mm."""
+        if frame.id == ROOT:
+            return np.eye(4)
+        if frame.model_part:
+            return _pose_in_model(self.spec, frame.id)
+        local = np.eye(4)
+        local[:3] = pose_rows((*frame.place, *frame.turn))
+        pose: Matrix = self.in_world(self.frames[frame.parent]) @ local
+        return pose
+
+
+def _pose_in_model(spec: Any, body: str) -> Matrix:
+    """The pose of a fixed body of the model file, shape (4, 4), mm."""
+    model = spec.copy().compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    at = model.body(body).id
+    return axes.matrix(data.xpos[at], data.xmat[at])
 
 
 def _base_spec(model: Model | None) -> tuple[Any, list[str]]:
@@ -95,6 +150,8 @@ def _base_spec(model: Model | None) -> tuple[Any, list[str]]:
 def _add_frame(into: _BuildContext, frame: Frame, notes: list[str]) -> Any:
     if frame.parent not in into.bodies:
         raise SceneError(f"`{frame.id}` is in `{frame.parent}`, which is not a frame before it")
+    if falls(frame, into.frames):
+        return _add_falling(into, frame, notes)
     body = into.bodies[frame.parent].add_body(
         name=body_name(frame.id),
         pos=axes.point(*frame.place),
@@ -103,18 +160,30 @@ def _add_frame(into: _BuildContext, frame: Frame, notes: list[str]) -> Any:
     moves = frame.motion or frame.drives or frame.physics
     if frame.mass > 0 or (moves and into.weigh):
         _weigh(body, frame.mass if frame.mass > 0 else _LIGHTEST)
-    if frame.physics and frame.parent == ROOT and frame.mass <= 0:
-        notes.append(f"`{frame.id}` falls and has no mass: it gets {_LIGHTEST:g} kg")
-    if frame.physics and frame.parent == ROOT:
-        body.add_freejoint(name=frame.id)
-        return body
-    body.gravcomp = 1.0
+    if frame.id not in into.loads:
+        body.gravcomp = 1.0
     if frame.physics:
-        notes.append(f"`{frame.id}` is in another frame and is moved by that, not by physics")
+        notes.append(f"`{frame.id}` is in a frame that moves: it is carried, and does not fall")
     if frame.motion:
         _add_joint(body, frame, frame.motion, into.degrees)
     elif frame.drives:
         _add_wheels(body, frame, into)
+    return body
+
+
+def _add_falling(into: _BuildContext, frame: Frame, notes: list[str]) -> Any:
+    """A body that starts in its frame and moves freely; MuJoCo has those in the world only."""
+    pose = into.in_world(frame)
+    body = into.spec.worldbody.add_body(
+        name=body_name(frame.id),
+        pos=axes.point(*pose[:3, 3].tolist()),
+        quat=axes.quaternion(pose[:3, :3]),
+    )
+    if frame.mass <= 0:
+        notes.append(f"`{frame.id}` falls and has no mass: it gets {_LIGHTEST:g} kg")
+    if frame.mass > 0 or into.weigh:
+        _weigh(body, frame.mass if frame.mass > 0 else _LIGHTEST)
+    body.add_freejoint(name=frame.id)
     return body
 
 

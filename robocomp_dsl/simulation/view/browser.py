@@ -7,6 +7,7 @@ the page change the state. Needs the extra `view`.
 from __future__ import annotations
 
 import logging
+import math
 import socket
 import time
 from collections.abc import Callable
@@ -19,7 +20,7 @@ from robocomp_dsl.extras import MissingExtra
 from robocomp_dsl.runtime.private_folder import read_page_token
 from robocomp_dsl.simulation.view.controls import Controls
 from robocomp_dsl.simulation.view.page_guard import PageGuard
-from robocomp_dsl.simulation.view.picture import Viewpoint, scene_extent
+from robocomp_dsl.simulation.view.picture import Viewpoint, find_camera, scene_extent
 from robocomp_dsl.simulation.view.remote_simulation import SimulationControl
 from robocomp_dsl.simulation.view.stage import Colours, Floats, Stage
 from robocomp_dsl.simulation.world.visual_state import VisualState, capture
@@ -44,7 +45,8 @@ class BrowserPage:
     `refresh`; or pass poses to `follow`. `remote` controls a world in another process. `url`
     contains the token of the user, without which nothing is served (see `page_guard`).
 
-    Raises `OSError` if the port is in use, and `UnsafeFolder` if the token cannot be read.
+    Raises `OSError` if the port is in use, `UnsafeFolder` if the token cannot be read, and
+    `NoRendering` if the model does not have the camera of the viewpoint.
     """
 
     def __init__(
@@ -57,6 +59,8 @@ class BrowserPage:
         port: int = 0,
         remote: SimulationControl | None = None,
     ) -> None:
+        if look.camera:
+            find_camera(model, look.camera)
         self._look, self._remote = look, remote
         self._points: dict[str, tuple[str, Floats, Colours, float]] = {}
         port = _free(port)  # viser would silently use another port
@@ -87,11 +91,24 @@ class BrowserPage:
                 self.show_points(name, body, points, colours, size)
 
     def _look_at(self, model: Any, data: Any) -> None:
+        """Start at the camera of the viewpoint, or so that everything is seen."""
+        if self._look.camera:
+            self._look_through(model, data, find_camera(model, self._look.camera))
+            return
         low, high = scene_extent(model, data)
         middle, away = (low + high) / 2, float(((high - low) ** 2).sum() ** 0.5)
         camera = self._server.initial_camera
         camera.look_at = tuple(middle.tolist())
         camera.position = tuple((middle + away * 0.9 * _DIRECTION).tolist())
+
+    def _look_through(self, model: Any, data: Any, number: int) -> None:
+        mujoco.mj_camlight(model, data)
+        position, turned = data.cam_xpos[number], data.cam_xmat[number].reshape(3, 3)
+        camera = self._server.initial_camera
+        camera.position = tuple(position.tolist())
+        camera.look_at = tuple((position - turned[:, 2]).tolist())  # it looks along -z
+        camera.up = tuple(turned[:, 1].tolist())
+        camera.fov = math.radians(float(model.cam_fovy[number]))
 
     def refresh(self) -> None:
         """Show the current state."""

@@ -6,11 +6,12 @@ In: a model. Out: the tree of its bodies as Markdown, their joints, rotations as
 from __future__ import annotations
 
 import html
-import math
 from typing import Any
 
 import mujoco
 import numpy as np
+
+from robocomp_dsl.hardware.kinematics.rotations import angles
 
 _MOST_LISTED = 2000
 _JOINT = mujoco.mjtJoint
@@ -61,12 +62,9 @@ def quaternion(turn: Any) -> Any:
 
 
 def roll_pitch_yaw(quat: Any) -> tuple[float, float, float]:
-    """Roll, pitch, yaw of (w, x, y, z)."""
+    """Roll, pitch, yaw of (w, x, y, z): of the two solutions the one of the smaller norm."""
     flat = np.zeros(9)
     mujoco.mju_quat2Mat(flat, quat / np.linalg.norm(quat))
-    m = flat.reshape(3, 3)
-    return (
-        math.atan2(m[2, 1], m[2, 2]),
-        math.atan2(-m[2, 0], math.hypot(m[0, 0], m[1, 0])),
-        math.atan2(m[1, 0], m[0, 0]),
-    )
+    # Rz(yaw)·Ry(pitch)·Rx(roll) is the inverse of Rx(-roll)·Ry(-pitch)·Rz(-yaw)
+    roll, pitch, yaw = angles(flat.reshape(3, 3).T)
+    return 0.0 - roll, 0.0 - pitch, 0.0 - yaw

@@ -12,6 +12,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
 
 from robocomp_dsl.hardware.description.scene import Box, Device, Frame, Mesh, Motion, Scene
+from robocomp_dsl.hardware.devices.errors import SceneError
 
 Number = float | int
 Value = TypeVar("Value", Frame, Motion, Box, Mesh)
@@ -92,13 +93,21 @@ MOTIONS: Mapping[str, ValueRange] = {
 def clamp_scene(scene: Scene) -> tuple[Scene, list[str]]:
     """A scene that can be simulated, and notes on the changes."""
     notes: list[str] = []
-    clamped = Scene(
-        tuple(_clamp_motion(_clamp_fields(part, notes), notes) for part in scene.frames),
-        tuple(_clamp_fields(part, notes) for part in scene.boxes),
-        tuple(_clamp_fields(part, notes) for part in scene.meshes),
-        tuple(_clamp_settings(part, notes) for part in scene.devices),
+    clamped = replace(
+        scene,
+        frames=tuple(_clamp_motion(_clamp_fields(part, notes), notes) for part in scene.frames),
+        boxes=tuple(_clamp_fields(part, notes) for part in scene.boxes),
+        meshes=tuple(_clamp_fields(part, notes) for part in scene.meshes),
+        devices=tuple(_clamp_settings(part, notes) for part in scene.devices),
     )
     return (clamped if notes else scene), notes
+
+
+def require_limits(scene: Scene) -> None:
+    """Reject values that cannot be simulated, in changes at run time. Raises `SceneError`."""
+    _, notes = clamp_scene(scene)
+    if notes:
+        raise SceneError(notes[0])
 
 
 def _clamp_fields(
@@ -141,7 +150,7 @@ def _clamp_settings(device: Device, notes: list[str]) -> Device:
 
 
 def _note(id: str, name: str, near: Any, value: Any) -> str:
-    return f"`{id}`: `{name}` is {_format(near)} here, {_format(value)} cannot be simulated"
+    return f"`{id}`: `{name}` {_format(value)} cannot be simulated, {_format(near)} can"
 
 
 def _format(value: Any) -> str:

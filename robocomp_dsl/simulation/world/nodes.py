@@ -14,17 +14,20 @@ from typing import Any, Protocol
 import mujoco
 import numpy as np
 
+from robocomp_dsl.hardware.description.falling import falls
 from robocomp_dsl.hardware.description.scene import ROOT, Frame, Scene
 from robocomp_dsl.hardware.description.scene_edit import (
     NodeError,
     NodeErrorCode,
     frame_of,
+    move_node,
     replace_frame,
     subtree,
 )
 from robocomp_dsl.hardware.devices.errors import require_finite
 from robocomp_dsl.hardware.kinematics.rotations import Matrix, angles, inverse, pose_rows
 from robocomp_dsl.simulation.scene import axes
+from robocomp_dsl.simulation.world.limits import require_limits
 from robocomp_dsl.simulation.world.state import SimulationState
 
 NAMES = ("x", "y", "z", "rx", "ry", "rz")
@@ -75,11 +78,15 @@ def place(simulation: ChangeableWorld, base: str, item: str, pose: Sequence[floa
         )
         return
     in_parent = between(simulation.state, frame.parent, base) @ matrix_of(pose)
-    parent = pose_of(in_parent)
-    x, y, z, rx, ry, rz = parent
+    # as it is written, if it is relative to the parent: a joint may turn by more than 180 degrees
+    x, y, z, rx, ry, rz = pose if base == frame.parent else pose_of(in_parent)
     changed = replace(frame, place=(x, y, z), turn=(rx, ry, rz))
+    require_limits(Scene((changed,)))
     if frame.motion:
         _place_joint(simulation, changed)
+    elif _falls(simulation.state, frame.id):
+        in_root = between(simulation.state, ROOT, frame.parent) @ in_parent
+        _place_body(simulation, changed, in_root)
     else:
         _place_body(simulation, changed, in_parent)
 
@@ -89,8 +96,10 @@ def _place_given(branch: SimulationState, frame: Frame, in_root: Matrix) -> None
     if frame.model_part == "joint":
         message = f"`{frame.id}` is a joint of the model file: JointMotor and ControlBoard move it"
         raise NodeError(NodeErrorCode.WRONG_NODE, message)
+    x, y, z, rx, ry, rz = pose_of(in_root)
+    require_limits(Scene((replace(frame, place=(x, y, z), turn=(rx, ry, rz)),)))
     model, data = branch.world.model, branch.world.data
-    position = axes.point(*in_root[:3, 3].tolist())
+    position = axes.point(x, y, z)
     turned = axes.quaternion(in_root[:3, :3])
     body = branch.body(frame.id) if frame.model_part == "body" else 0
     joint, mocap = int(model.body_jntadr[body]), int(model.body_mocapid[body])
@@ -113,12 +122,13 @@ def _place_joint(simulation: ChangeableWorld, frame: Frame) -> None:
     simulation.state.devices[frame.id].update_frame(frame.id)
 
 
-def _place_body(simulation: ChangeableWorld, frame: Frame, in_parent: Matrix) -> None:
+def _place_body(simulation: ChangeableWorld, frame: Frame, pose: Matrix) -> None:
+    """`pose` is in the body above in MuJoCo's tree: of a falling frame, the world."""
     branch = simulation.state
     model, data = branch.world.model, branch.world.data
     body = branch.body(frame.id)
-    position = axes.point(*in_parent[:3, 3].tolist())
-    turned = axes.quaternion(in_parent[:3, :3])
+    position = axes.point(*pose[:3, 3].tolist())
+    turned = axes.quaternion(pose[:3, :3])
     branch.scene = replace_frame(branch.scene, frame)
     model.body_pos[body], model.body_quat[body] = position, turned
     first = int(model.body_jntadr[body])
@@ -132,6 +142,22 @@ def _place_body(simulation: ChangeableWorld, frame: Frame, in_parent: Matrix) ->
     if device is not None and hasattr(device, "update_frame"):
         device.update_frame(frame.id)
     simulation.switch_to(branch)
+
+
+def move(simulation: ChangeableWorld, item: str, parent: str) -> None:
+    """Move a node to another parent; its present local pose is unchanged, also if it fell there."""
+    scene, forget = simulation.state.scene, []
+    if any(frame.id == item for frame in scene.frames) and _falls(simulation.state, item):
+        frame = frame_of(scene, item)
+        x, y, z, rx, ry, rz = pose_of(between(simulation.state, frame.parent, item))
+        scene = replace_frame(scene, replace(frame, place=(x, y, z), turn=(rx, ry, rz)))
+        forget = [item]
+    simulation.rebuild(move_node(scene, item, parent), forget)
+
+
+def _falls(state: SimulationState, id: str) -> bool:
+    frames = {frame.id: frame for frame in state.scene.frames}
+    return falls(frames[id], frames)
 
 
 def touching(state: SimulationState, first: str, other: str) -> bool:

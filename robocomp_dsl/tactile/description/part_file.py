@@ -20,7 +20,14 @@ from robocomp_dsl.tactile.errors import DescriptionError
 
 
 def load_arm_part(description: str, part: str, config: Path | None) -> GenericPart:
-    """The arm `part` of the file `description`, which `data_file` searches for.
+    """The arm `part` of the file `description`; see `load_arm`. Raises `ConfigError`."""
+    return load_arm(description, part, config)[1]
+
+
+def load_arm(
+    description: str, part: str, config: Path | None
+) -> tuple[RobotDescription, GenericPart]:
+    """The robot of the file `description`, which `data_file` searches for, and its arm `part`.
 
     Raises `ConfigError`.
     """
@@ -37,7 +44,7 @@ def load_arm_part(description: str, part: str, config: Path | None) -> GenericPa
     if len(found.servos) != len(GENERIC_ARM):
         message = f"`{part}` is not an arm: it has {len(found.servos)} servos"
         raise ConfigError([_part_finding(found, message, f"an arm has {', '.join(GENERIC_ARM)}")])
-    return found
+    return robot, found
 
 
 def _parse_robot(source: str, file: Path) -> RobotDescription:

@@ -17,6 +17,8 @@ import numpy as np
 
 from robocomp_dsl.tactile.arrays import Floats
 
+_SHORTEST = 1e-9
+
 
 @dataclass(frozen=True, slots=True)
 class Law:
@@ -59,12 +61,16 @@ class Stimulus:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Response:
-    """The response of one field to one touch; `motion` (n,) holds displacements."""
+    """The response of one field to one touch; `motion` (n,) holds displacements.
+
+    `inward` (3,) is the unit normal of the touched skin into the limb, in the limb's frame.
+    """
 
     field: Field
     stimulus: Stimulus
     distance: float
     gain: float
+    inward: Floats
 
     @property
     def motion(self) -> Floats:
@@ -92,14 +98,22 @@ def stimulus(points: Floats, forces: Floats, radius: float) -> Stimulus | None:
     return Stimulus(centre, float(forces @ weights) / total) if total > 0.0 else None
 
 
-def respond(law: Law, field: Field, points: Floats, forces: Floats) -> Response | None:
-    """Equations 5 and 6: the response of `field` to one touch, or None without a response."""
+def respond(
+    law: Law, field: Field, points: Floats, forces: Floats, normals: Floats | None = None
+) -> Response | None:
+    """Equations 5 and 6: the response of `field` to one touch, or None without a response.
+
+    `normals` (n, 3) are those of the taxels, outwards. Without them, the direction from the touch
+    to the axis of the limb is taken.
+    """
     felt = stimulus(points, forces, field.radius)
     if felt is None:
         return None
     distance = float(np.linalg.norm(felt.centre - field.centre))
     gain = law.force_factor(felt.force) * field.distance_factor(distance)
-    return Response(field, felt, distance, gain) if gain > 0.0 else None
+    if gain <= 0.0:
+        return None
+    return Response(field, felt, distance, gain, _inward(felt.centre, forces, normals))
 
 
 def total_motion(responses: Iterable[Response], size: int) -> Floats:
@@ -108,6 +122,18 @@ def total_motion(responses: Iterable[Response], size: int) -> Floats:
     for response in responses:
         motion += response.motion
     return motion
+
+
+def _inward(centre: Floats, forces: Floats, normals: Floats | None) -> Floats:
+    """The unit normal (3,) into the limb: the mean by force, or towards the axis x."""
+    axis = -np.array([0.0, centre[1], centre[2]])
+    mean = axis if normals is None else -(np.maximum(forces, 0.0) @ normals)
+    for candidate in (mean, axis):
+        length = float(np.linalg.norm(candidate))
+        if length > _SHORTEST:
+            unit: Floats = candidate / length
+            return unit
+    return np.array([0.0, 0.0, -1.0])
 
 
 def _centre(points: Floats, forces: Floats) -> Floats:

@@ -10,7 +10,7 @@ from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.errors import InvalidField
 from robocomp_dsl.tactile.reflex.frames import FrameValidator
 from robocomp_dsl.tactile.reflex.law import Field, Law, Response
-from robocomp_dsl.tactile.reflex.receptive_fields import ReceptiveFields
+from robocomp_dsl.tactile.reflex.receptive_fields import Ignored, ReceptiveFields
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 from robocomp_dsl.tactile.skin.touches import REACH
 
@@ -46,11 +46,16 @@ class ReflexPerception:
             self._receptors = self._fields_on(self.geometry, self.fields)
 
     def process_frame(
-        self, sequence: int, time: float, version: int, values: Floats
+        self,
+        sequence: int,
+        time: float,
+        version: int,
+        values: Floats,
+        ignored: Ignored | None = None,
     ) -> list[Response]:
         """The responses to a frame of `values` (n,) [N]. Raises `RejectedFrame`."""
         forces = self.validator.check(sequence, time, version, values)
-        return self._receptors.respond(forces) if self._receptors else []
+        return self._receptors.respond(forces, ignored) if self._receptors else []
 
     def _fields_on(self, geometry: SkinGeometry, fields: tuple[Field, ...]) -> ReceptiveFields:
         return ReceptiveFields(geometry, self.part, fields, self.law, self.reach)

@@ -6,6 +6,8 @@ Out: the responses of every field to every touch on its limb.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from robocomp_dsl.tactile.arrays import Floats
@@ -13,6 +15,9 @@ from robocomp_dsl.tactile.errors import InvalidField
 from robocomp_dsl.tactile.reflex.law import Field, Law, Response, respond
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 from robocomp_dsl.tactile.skin.touches import REACH, TaxelGraph
+
+Ignored = Callable[[str, Floats], bool]
+"""Whether a touch of the limb of that name, centred at (3,) [m], is left out."""
 
 
 class ReceptiveFields:
@@ -33,6 +38,8 @@ class ReceptiveFields:
         mine = np.flatnonzero(np.isin(geometry.limb, limbs))
         self.law = law
         self._taxels, self._points, self._limb = mine, geometry.points[mine], geometry.limb[mine]
+        self._normals = geometry.normals[mine]
+        self._names = {i: geometry.limbs[i].partition("/")[2] for i in limbs}
         self._neighbours = TaxelGraph.of(self._points, self._limb, reach)
         self._fields: dict[int, list[Field]] = {i: [] for i in limbs}
         for field in fields:
@@ -44,13 +51,16 @@ class ReceptiveFields:
                 )
             self._fields[geometry.limbs.index(name)].append(field)
 
-    def respond(self, forces: Floats) -> list[Response]:
+    def respond(self, forces: Floats, ignored: Ignored | None = None) -> list[Response]:
         """Responses to the touches among `forces` (n,) of a whole frame."""
         felt = forces[self._taxels]
         answers = []
         for touch in self._neighbours.touches(felt > 0.0):
-            for field in self._fields[int(self._limb[touch[0]])]:
-                answer = respond(self.law, field, self._points[touch], felt[touch])
+            limb, points = int(self._limb[touch[0]]), self._points[touch]
+            if ignored and ignored(self._names[limb], felt[touch] @ points / felt[touch].sum()):
+                continue
+            for field in self._fields[limb]:
+                answer = respond(self.law, field, points, felt[touch], self._normals[touch])
                 if answer is not None:
                     answers.append(answer)
         return answers

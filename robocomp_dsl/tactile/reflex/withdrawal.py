@@ -7,12 +7,23 @@ functions of data, without clock, state or robot.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from enum import Enum
 
 import numpy as np
 
 from robocomp_dsl.tactile.arrays import Bools, Floats
 from robocomp_dsl.tactile.reflex.law import Response, total_motion
+
+_SHORTEST = 1e-9
+
+
+class LimitCause(Enum):
+    """Why a withdrawal is smaller than its touch requires."""
+
+    JOINT_LIMITS = "the joints that would move away are at their limits"
+    OWN_BODY = "the arm would press against the robot itself"
+    NO_DIRECTION = "no joint moves the touched place away"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,13 +71,16 @@ class ArmProperties:
 class Withdrawal:
     """A withdrawal from `origin` (n,), the pose at `began` [s], to `goal` (n,).
 
-    `strongest` holds the strongest response so far of each field, by its name.
+    `strongest` holds the strongest response so far of each field, by its name; `felt_at` the pose
+    (n,) at its first response. `limit` says what made the latest goal smaller.
     """
 
     began: float
     origin: Floats
     goal: Floats
     strongest: Mapping[str, Response]
+    felt_at: Mapping[str, Floats] = field(default_factory=dict)
+    limit: LimitCause | None = None
 
 
 def initial(pose: Floats, now: float) -> Withdrawal:
@@ -103,6 +117,17 @@ def new_responses(before: Withdrawal, after: Withdrawal) -> list[Response]:
 def max_joint_distance(pose: Floats, other: Floats) -> float:
     """The largest distance of a joint between two poses (n,) [rad]."""
     return float(np.abs(pose - other).max(initial=0.0))
+
+
+def synchronised(pose: Floats, goal: Floats, speed: Floats) -> Floats:
+    """Speeds (n,) [rad/s] with which all joints arrive together, none faster than `speed` (n,).
+
+    The arm then moves on the straight way in joint space. Joints without motion have `speed`.
+    """
+    distance, seconds = np.abs(goal - pose), duration(pose, goal, speed)
+    moves = (distance > 0.0) & (seconds > 0.0)
+    together: Floats = np.where(moves, distance / max(seconds, _SHORTEST), speed)
+    return together
 
 
 def duration(pose: Floats, goal: Floats, speed: Floats) -> float:

@@ -6,6 +6,7 @@ import threading
 
 import pytest
 
+from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.connection.endpoint import Qos
 from tests.middleware.network import DEADLINE, Network, Node
@@ -173,3 +174,27 @@ def test_slow_subscriber_keeps_latest_messages_of_its_depth(network: Network) ->
         return bool(node.count("announced", "News").drops == sent - len(received))
 
     wait_until(counted, lambda: f"{node.count('announced', 'News')}, {sent=} {len(received)=}")
+
+
+TAGS = rt.Interface(
+    "Test::Tags",
+    rt.Operation("seen", rt.Pattern.UNMARKED, {"number": rt.Int}),
+    rt.Operation("count", returns=rt.Int),
+    rt.Operation("lost", rt.Pattern.PUBLISH, {"number": rt.Int}),
+)
+
+
+def test_topic_has_only_the_operations_without_outputs(network: Network) -> None:
+    seen: list[int] = []
+    handlers = {"seen": seen.append, "lost": lambda number: seen.append(-number)}
+    subscriber, publisher = network.node("subscriber"), network.node("publisher")
+    at = subscriber.at(TAGS, "Tags")
+    subscriber.ports.subscribe(at, handlers, subscriber.execution)
+    channel = publisher.ports.advertise(publisher.at(TAGS, "Tags"))
+    call = {operation.name: channel.bind(operation) for operation in TAGS.operations}
+    assert channel.wait(DEADLINE)
+    wait_until(lambda: call["seen"](1) or 1 in seen)
+    call["lost"](2)
+    wait_until(lambda: -2 in seen)
+    with pytest.raises(rt.NotPublishable, match=r"count of Test::Tags returns something"):
+        call["count"]()

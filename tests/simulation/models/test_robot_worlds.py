@@ -15,8 +15,15 @@ from robocomp_dsl.hardware.control.modes import Mode
 from robocomp_dsl.resources import INTERFACES
 from robocomp_dsl.simulation.robots.boards import board_names, robot_board
 from robocomp_dsl.simulation.robots.build import add_robot, new_world
-from robocomp_dsl.simulation.robots.catalog import ROBOTS, description_file
-from robocomp_dsl.simulation.robots.export import FINGERS, FORCE, WORLDS, RobotWorld, text
+from robocomp_dsl.simulation.robots.catalog import ROBOTS, description, description_file
+from robocomp_dsl.simulation.robots.export import (
+    FINGERS,
+    FORCE,
+    WORLDS,
+    RobotWorld,
+    robot_text,
+    text,
+)
 from robocomp_dsl.simulation.world.simulation import Simulation, SimulationOptions
 from tests.simulation.served_worlds import rcgen
 from tests.support.generated_package import package_in
@@ -41,6 +48,12 @@ def test_robot_world_file_matches_exporter(world: RobotWorld) -> None:
     assert path.read_text("utf-8") == text(world), EXPORT
     described = description_file(world.robot).read_bytes()
     assert path.with_name("tactile.yaml").read_bytes() == described, EXPORT
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_robot_model_of_description_matches_exporter(name: str) -> None:
+    model = description_file(name).with_name(description(name).model)
+    assert model.read_text("utf-8") == robot_text(name), EXPORT
 
 
 @worlds

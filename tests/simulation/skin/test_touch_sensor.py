@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from tests.simulation.served_worlds import served
+from robocomp_dsl.hardware.devices.errors import SceneError
+from tests.simulation.served_worlds import Served, rcgen, served
 
 TABLE = """\
 <innerModel>
@@ -49,3 +51,49 @@ def test_touch_sensor_measures_along_its_normal_only(tmp_path: Path) -> None:
         world.simulation.advance(2.0)
         found = world.ports["TouchSensor"].getValues()["scale"].value
         assert found == pytest.approx(force, rel=0.02, abs=0.05), normal
+
+
+def mistake(world: Served, operation: str, *arguments: Any) -> str:
+    with pytest.raises(world.types.InnerModelManagerError) as raised:
+        getattr(world.ports["InnerModelManager"], operation)(*arguments)
+    assert raised.value.err.name == "InvalidValues"
+    return str(raised.value.text)
+
+
+@pytest.mark.parametrize(
+    ("operation", "arguments"), [("removeNode", ("side",)), ("moveNode", ("side", "root"))]
+)
+def test_touch_sensor_keeps_its_last_shape(
+    tmp_path: Path, operation: str, arguments: tuple[str, ...]
+) -> None:
+    """Without a shape it would read 0 for ever: the change is rejected, the world continues."""
+    world = served(tmp_path, TABLE)
+    found = mistake(world, operation, *arguments)
+    assert found.startswith("`foot` would never feel anything: no shape in it collides")
+    world.simulation.advance(2.0)
+    read = world.ports["TouchSensor"].getValues
+    assert read()["foot"].value == 1.0
+    assert world.ports["InnerModelManager"].removeNode("foot")  # with its shape: it is gone
+    assert set(read()) == {"scale", "under"}
+
+
+def test_touch_sensor_with_unreadable_mesh_is_not_built(tmp_path: Path) -> None:
+    """A mesh that cannot be read becomes a marker that touches nothing."""
+    text = """<innerModel><touchsensor id="bump" type="bumper">
+      <mesh id="pad" file="gone.obj" collide="1"/></touchsensor></innerModel>"""
+    with pytest.raises(SceneError, match=r"`bump` would never feel anything.*cannot be read"):
+        served(tmp_path, text)
+
+
+def test_touch_sensor_without_shape_is_left_out_of_simulator(tmp_path: Path) -> None:
+    """The rest of a world with errors is simulated."""
+    (tmp_path / "world.xml").write_text(
+        TABLE.replace('<plane id="side" size="100,100,100" collide="1"/>', "")
+    )
+    done = rcgen("simulator", "world.xml", "--dry-run", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "RC784" in done.stderr
+    assert "1 touch sensor left out" in done.stderr
+    sensors = [line for line in done.stdout.splitlines() if "touchsensor" in line]
+    assert [line.split()[0] for line in sensors] == ["scale", "under"]
+    assert rcgen("simulator", "world.xml", "--strict", cwd=tmp_path).returncode == 1

@@ -8,6 +8,7 @@ import sys
 import time
 import urllib.request
 from collections.abc import Iterator
+from contextlib import closing
 from functools import partial
 from pathlib import Path
 
@@ -17,9 +18,11 @@ import pytest
 
 pytest.importorskip("viser", reason="needs the extra `view`")
 
+from robocomp_dsl.hardware.devices.errors import NoRendering
 from robocomp_dsl.simulation.models.model_file import load_model
 from robocomp_dsl.simulation.view.browser import LOOPBACK, BrowserPage
 from robocomp_dsl.simulation.view.nodes import quaternion, roll_pitch_yaw, tree
+from robocomp_dsl.simulation.view.picture import Viewpoint
 from robocomp_dsl.simulation.view.shapes import colour, triangles
 from robocomp_dsl.simulation.view.stage import relative_poses
 from robocomp_dsl.simulation.world.visual_state import capture
@@ -60,6 +63,26 @@ def test_browser_view_reports_occupied_port() -> None:
         other.listen()
         with pytest.raises(OSError, match="in use"):
             BrowserPage("crane", model, mujoco.MjData(model), port=other.getsockname()[1])
+
+
+def test_browser_view_shows_markers_of_missing_meshes(tmp_path: Path) -> None:
+    file = tmp_path / "a.xml"
+    file.write_text(
+        "<mujoco><asset><mesh name='m' file='gone.obj'/></asset><worldbody><body name='b'>"
+        "<geom type='mesh' mesh='m' pos='1 2 3'/></body></worldbody></mujoco>"
+    )
+    model = load_model(file).model
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    page = BrowserPage("a", model, data)
+    try:
+        markers = [name for name in page._server.scene._handle_from_node_name if "missing" in name]
+        assert markers == ["/world/b/gone.obj 1:missing mesh"]
+        handle = page._server.scene._handle_from_node_name[markers[0]]
+        assert handle.position.tolist() == [1, 2, 3]
+        assert max(handle.dimensions) <= 0.03 * page.stage.extent
+    finally:
+        page.close()
 
 
 def test_browser_view_nodes_follow_model_hierarchy(page: BrowserPage) -> None:
@@ -223,3 +246,20 @@ def test_browser_view_renders_scene_in_browser_without_other_requests(tab: Tab) 
         finally:
             served.send_signal(signal.SIGINT)
         assert served.wait(TIMEOUT_S) == 130
+
+
+def test_browser_view_starts_at_camera_of_model() -> None:
+    """It looks along -z of MuJoCo's camera: here from the south to the north."""
+    text = """<mujoco><worldbody><geom size=".1"/><body pos="0 -1 0.5">
+      <camera name="side" euler="90 0 0" fovy="40"/></body></worldbody></mujoco>"""
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    with closing(BrowserPage("m", model, data, Viewpoint(camera="side"))) as shown:
+        camera = shown._server.initial_camera
+        assert camera.position == pytest.approx((0, -1, 0.5))
+        assert camera.look_at == pytest.approx((0, 0, 0.5), abs=1e-6)
+        assert camera.up == pytest.approx((0, 0, 1), abs=1e-6)
+        assert camera.fov == pytest.approx(np.deg2rad(40))
+    with pytest.raises(NoRendering, match="its cameras are `side`"):
+        BrowserPage("m", model, data, Viewpoint(camera="top"))

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     help="Output folder; default: NAME.",
 )
 @options.packages
+@options.world_folders
 @options.output_format
 @options.folders
 def command(
@@ -50,6 +51,7 @@ def command(
     like: str,
     output: Path | None,
     packages: tuple[Path, ...],
+    world_folders: tuple[Path, ...],
     output_format: str,
     folders: tuple[Path, ...],
 ) -> None:
@@ -66,7 +68,7 @@ def command(
     if not name.isidentifier():
         raise click.UsageError(f"`{name}` cannot name a component: use letters, digits and _")
     input_report, report = Report(), Report()
-    workspace = Workspace(folders)
+    workspace = Workspace(folders, world_folders=world_folders)
     driver = build_simulator(Path(file), packages, workspace, input_report, report, strict=False)
     input_report.extend(report)
     options.print_findings(input_report.sorted(), output_format, sys.stderr)

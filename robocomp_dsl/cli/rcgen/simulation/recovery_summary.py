@@ -20,6 +20,7 @@ _DONE = {
     codes.INNERMODEL_TOO_LARGE: ("body", "cut off"),
     codes.INNERMODEL_INCLUDE: ("file", "not included"),
     codes.INNERMODEL_RULE: ("node", "simplified"),
+    codes.INNERMODEL_TOUCH: ("touch sensor", "left out"),
 }
 _FORM = ("place", "repaired in its XML")
 """All syntax errors."""

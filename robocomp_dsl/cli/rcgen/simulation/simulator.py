@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     "--dry-run", is_flag=True, help="Write nothing; list the interfaces that would be served."
 )
 @options.packages
+@options.world_folders
 @click.option(
     "--tactile",
     type=click.Path(readable=False, path_type=Path),
@@ -67,6 +68,7 @@ def command(
     output: Path | None,
     dry_run: bool,
     packages: tuple[Path, ...],
+    world_folders: tuple[Path, ...],
     tactile: Path | None,
     also: tuple[str, ...],
     strict: bool,
@@ -82,7 +84,7 @@ def command(
     rewrite all files except `specificworker.py`, `README.md` and `etc/config.yaml`.
     """
     input_report, report = Report(), Report()
-    workspace = Workspace(folders)
+    workspace = Workspace(folders, world_folders=world_folders)
 
     def complete(simulator_: Simulator) -> Simulator:
         simulator_ = _with_skin(simulator_, tactile, workspace, report) if tactile else simulator_
@@ -139,7 +141,7 @@ def _world(
         return None
     from robocomp_dsl.generate.simulator.simulator import simulator  # noqa: PLC0415 - not for --help
 
-    simulator_ = complete(simulator(body))
+    simulator_ = complete(simulator(body, workspace.world_folders or ()))
     _build(simulator_, body, report)
     if input_report.has_errors and not report.has_errors:
         message = (

@@ -24,7 +24,9 @@ if TYPE_CHECKING:
     from robocomp_dsl.simulation.view.picture import Viewpoint
 
 
-def _size(_: click.Context, __: click.Parameter, written: str) -> tuple[int, int]:
+def _size(_: click.Context, __: click.Parameter, written: str | None) -> tuple[int, int] | None:
+    if written is None:
+        return None
     width, cross, height = written.partition("x")
     if not cross or not (width.isdecimal() and height.isdecimal()):
         raise click.BadParameter("width and height, as in 1280x960")
@@ -53,9 +55,12 @@ def _size(_: click.Context, __: click.Parameter, written: str) -> tuple[int, int
     help="Save a screenshot instead; works without a display.",
 )
 @click.option(
-    "--size", default="1280x960", callback=_size, help="Size of the screenshot, in pixels."
+    "--size",
+    metavar="WIDTHxHEIGHT",
+    callback=_size,
+    help="Size of the screenshot, in pixels; default: that of the camera, or 1280x960.",
 )
-@click.option("--camera", default="", metavar="NAME", help="View through this camera of the model.")
+@click.option("--camera", default="", metavar="NAME", help="View through this camera of the world.")
 @click.option(
     "--azimuth", default=120.0, show_default=True, help="Azimuth of the viewpoint, in degrees."
 )
@@ -78,6 +83,7 @@ def _size(_: click.Context, __: click.Parameter, written: str) -> tuple[int, int
     help="Open the page in the browser; default: on a terminal with a display.",
 )
 @options.packages
+@options.world_folders
 @options.output_format
 def command(
     *,
@@ -85,7 +91,7 @@ def command(
     live: bool,
     domain: str | None,
     screenshot: Path | None,
-    size: tuple[int, int],
+    size: tuple[int, int] | None,
     camera: str,
     azimuth: float,
     elevation: float,
@@ -96,6 +102,7 @@ def command(
     port: int,
     browser: bool | None,
     packages: tuple[Path, ...],
+    world_folders: tuple[Path, ...],
     output_format: str,
 ) -> None:
     """Show a world, a robot or a running simulation in the browser, or save a screenshot.
@@ -118,7 +125,7 @@ def command(
 
         view_live.show(str(file or ""), domain, look, screenshot, size, port, opens=browser)
         return
-    subject = read_subject(file, packages, report)
+    subject = read_subject(file, packages, report, world_folders)
     options.print_findings(report.sorted(), output_format, sys.stderr)
     if subject is None:
         raise CliError(EXIT_FINDINGS)

@@ -38,7 +38,7 @@ def show(
     domain: str | None,
     look: Viewpoint,
     screenshot: Path | None,
-    size: tuple[int, int],
+    size: tuple[int, int] | None,
     port: int,
     *,
     opens: bool | None,

@@ -15,13 +15,17 @@ if TYPE_CHECKING:
 
 
 def save_screenshot(
-    model: Any, data: Any, path: Path, size: tuple[int, int], viewpoint: Viewpoint
+    model: Any, data: Any, path: Path, size: tuple[int, int] | None, viewpoint: Viewpoint
 ) -> None:
-    """Render a screenshot of `size` (width, height in pixels) and print its path."""
+    """Render a screenshot of `size` (width, height in pixels) and print its path.
+
+    Without a size it is that of the camera.
+    """
     from robocomp_dsl.hardware.devices.errors import NoRendering  # noqa: PLC0415 - slow: MuJoCo
-    from robocomp_dsl.simulation.view.picture import Renderer, save  # noqa: PLC0415
+    from robocomp_dsl.simulation.view.picture import Renderer, picture_size, save  # noqa: PLC0415
 
     try:
+        size = size or picture_size(model, viewpoint)
         with Renderer(model, *size) as renderer:
             save(path, renderer.render(data, viewpoint))
     except (NoRendering, OSError) as error:
@@ -32,6 +36,7 @@ def save_screenshot(
 @contextmanager
 def page_errors(port: int) -> Iterator[None]:
     """Turn the errors of opening a page into those of the command."""
+    from robocomp_dsl.hardware.devices.errors import NoRendering  # noqa: PLC0415 - slow: MuJoCo
     from robocomp_dsl.simulation.view.page_guard import Unprotected  # noqa: PLC0415 - an extra
 
     try:
@@ -41,7 +46,7 @@ def page_errors(port: int) -> Iterator[None]:
         raise CliError(
             EXIT_FINDINGS, f"port {port} cannot be used: {reason}; try --port 0"
         ) from None
-    except (UnsafeFolder, Unprotected) as error:
+    except (NoRendering, UnsafeFolder, Unprotected) as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None
 
 
