@@ -11,7 +11,7 @@ from pathlib import Path
 
 from robocomp_dsl.check.passes import check_bdsl, check_cdsl, check_ddsl
 from robocomp_dsl.check.workspace.workspace import Workspace
-from robocomp_dsl.diagnostics import Report, Severity
+from robocomp_dsl.diagnostics import Diagnostic, Report, Severity
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.plan import plan as files_of
 from robocomp_dsl.generate.regeneration.update import update_user_files
@@ -40,10 +40,18 @@ def check_migrated_files(
     plan: MigrationPlan, out: Path, folders: Sequence[Path], report: Report
 ) -> None:
     """Check the deployments and bridges that were written."""
+    found = Report()
     for bridge in plan.bridges:
-        check_bdsl(out / bridge, Workspace(folders), report)
+        check_bdsl(out / bridge, Workspace(folders), found)
     for deployment in plan.deployments:
-        check_ddsl(out / deployment, Workspace(folders), report)
+        check_ddsl(out / deployment, Workspace(folders), found)
+    known = {_key(finding) for finding in report}
+    report.extend([finding for finding in found if _key(finding) not in known])
+
+
+def _key(finding: Diagnostic) -> tuple[str, Path, int, str]:
+    """What two findings about the same thing have in common."""
+    return finding.code.id, finding.span.source.path, finding.span.start, finding.message
 
 
 def migration_report(

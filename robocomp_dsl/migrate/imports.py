@@ -27,6 +27,9 @@ from robocomp_dsl.source import Span
 GENERATED_MODULES = ("genericworker", "interfaces")
 """Modules that RoboComp generated next to the worker."""
 _QT_NAME = re.compile(r"Q[A-Zt]\w+|Qt|qApp|Signal|Slot|SIGNAL|SLOT|Property|pyqt\w+")
+INNER_MODELS = frozenset(("librobocomp_innermodel", "innermodel", "innermodel_python3"))
+"""Modules and packages that had RoboComp's `InnerModel`."""
+INNER_MODEL_NAMES = frozenset(("InnerModel", "InnerModelJoint", "InnerModelPrismaticJoint", "*"))
 TextEdit = tuple[int, int, str]
 """Replace the text of [start, end)."""
 
@@ -39,7 +42,7 @@ class LegacyNames:
 
     `states` are the suffixes of the state methods; None without a state machine. `servants` are
     modules that RoboComp generated, and that the runtime replaces. `has_window`: the component
-    runs with Qt, so imports of Qt become imports of PySide6.
+    runs with Qt, so imports of Qt become imports of PySide6. `local` are the component's modules.
     """
 
     legacy: str
@@ -49,6 +52,7 @@ class LegacyNames:
     states: frozenset[str] | None = None
     servants: frozenset[str] = frozenset()
     has_window: bool = False
+    local: frozenset[str] = frozenset()
 
 
 def _used_attributes(tree: ast.Module) -> dict[str, set[str]]:
@@ -123,6 +127,10 @@ def _plain_import(node: ast.Import, names: LegacyNames, used: dict[str, set[str]
         if alias.name in names.servants:
             changed = True
             continue
+        if alias.name in INNER_MODELS - names.local:
+            changed = True
+            statements.append(f"from robocomp_dsl import innermodel as {bound}")
+            continue
         is_generated = alias.name in GENERATED_MODULES
         is_provided = alias.name in names.modules or (
             alias.name == "Ice" and _unsupported_attribute("Ice", bound, used) is None
@@ -145,10 +153,11 @@ def _from_import(node: ast.ImportFrom, names: LegacyNames, used: dict[str, set[s
     """The new text of `from a import b`; None if it needs no change."""
     module = node.module or ""
     listed = ", ".join(a.name + (f" as {a.asname}" if a.asname else "") for a in node.names)
-    if module in GENERATED_MODULES:
-        return f"from {names.legacy} import {listed}"
-    if module in names.servants:
-        return "pass"
+    if module in (*GENERATED_MODULES, *names.servants):
+        return "pass" if module in names.servants else f"from {names.legacy} import {listed}"
+    is_inner_model = module.partition(".")[0] in INNER_MODELS - names.local
+    if is_inner_model and INNER_MODEL_NAMES.issuperset(a.name for a in node.names):
+        return f"from robocomp_dsl.innermodel import {listed}"
     if module in names.modules:
         return f"from {names.package}.interfaces import {listed}"
     if names.has_window and is_qt(module):

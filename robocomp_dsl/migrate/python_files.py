@@ -8,6 +8,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from robocomp_dsl.diagnostics import Report
@@ -64,7 +65,9 @@ def migrate_python_files(
     legacy = "legacy"
     while f"{legacy}.py" in taken:
         legacy = f"robocomp_{legacy}"
-    names = names_for(component, legacy)
+    local = frozenset(name.removesuffix(".py") for name in taken)
+    local |= {part for file in module_files for part in file.relative.parent.parts}
+    names = replace(names_for(component, legacy), local=local)
     in_source = any(map(_depends_on_place, readable))
     if user:
         _review(component, user, files, module_files, modules, report)

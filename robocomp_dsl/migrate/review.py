@@ -15,7 +15,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.regeneration.user_module import UserModule
 from robocomp_dsl.migrate import worker_codes
-from robocomp_dsl.migrate.imports import GENERATED_MODULES, span_of
+from robocomp_dsl.migrate.imports import (
+    GENERATED_MODULES,
+    INNER_MODEL_NAMES,
+    INNER_MODELS,
+    span_of,
+)
 from robocomp_dsl.migrate.qt_imports import QT
 
 HOOKS = frozenset(
@@ -116,10 +121,17 @@ def _review_imports(
             if top.startswith("RoboComp") and top not in names:
                 message = f"no interface of the component is in the module `{top}`"
                 report.add(worker_codes.MISSING_NAME, span_of(module, node), message)
+            elif top in INNER_MODELS - local_names and _is_known_inner_model(node):
+                continue
             elif not _is_available(top, names, local_names):
                 message = f"`{top}` is not installed here; the component does not start without it"
                 fix = f"install it for the component: pip install {_DISTRIBUTIONS.get(top, top)}"
                 report.add(worker_codes.MISSING_MODULE, span_of(module, node), message, help=fix)
+
+
+def _is_known_inner_model(node: ast.Import | ast.ImportFrom) -> bool:
+    """Whether an import of RoboComp's `InnerModel` was replaced."""
+    return isinstance(node, ast.Import) or INNER_MODEL_NAMES.issuperset(a.name for a in node.names)
 
 
 def _optional_nodes(tree: ast.Module) -> Iterator[ast.AST]:

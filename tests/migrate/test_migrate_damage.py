@@ -35,7 +35,7 @@ Rcgen = Callable[..., object]
         ("src/eyes.cpp", b"int main() {}", "RC951", 1),
         ("follow.cdsl", b"Component follow { ", "RC923", 1),
         ("follow.cdsl", b"import \"Nowhere.idsl\"; Component follow { Communications { requires"
-            b" Nowhere; }; language Python; };", "RC923", 1),
+            b" Nowhere; }; language Python; };", "RC201", 1),
         ("follow.cdsl", b"\x00", "RC921", 1),
         ("Mood.idsl", b"module M { struct", "RC923", 1),
         ("second.cdsl", b"Component second { };", "RC961", 1),

@@ -30,6 +30,7 @@ def findings(text: str, helper: str = "", local: str = "helper") -> list[tuple[s
     [
         ("import os\nimport nowhere_at_all\n", "RC895", 2),
         ("from nowhere_at_all.x import y\n", "RC895", 1),
+        ("import librobocomp_qmat\n", "RC895", 1),
         ("from genericworker import *\nx = RoboCompLaser.TOther()\n", "RC896", 2),
         ("import interfaces as ifaces\nx = ifaces.RoboCompLaser.TOther()\n", "RC896", 2),
         ("from RoboCompLaser import TOther\n", "RC896", 1),
@@ -54,6 +55,7 @@ def test_review_modules_reports_line(text: str, code: str, line: int) -> None:
         "import RoboCompLaser\nx = RoboCompLaser.TData()\nfrom RoboCompLaser import *\n",
         "class SpecificWorker(G):\n    def compute(self): ...\n",
         "from src.helper import x\n",
+        "import librobocomp_innermodel\nfrom innermodel import InnerModel\n",
     ],
 )
 def test_review_modules_accepts_code(text: str) -> None:
