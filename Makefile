@@ -54,9 +54,10 @@ campaign-hosts: $(READY)
 highlight: $(READY)
 	$(BIN)/python -m editors.highlight
 
-# Install the programs that tests use besides Python: editors, and the Slice compiler.
+# Install the programs that tests use besides Python: editors, the Slice compiler, and what Qt needs.
 test-tools: $(READY)
 	editors/install-test-tools.sh $(CURDIR)/$(BIN)/python
+	tests/runtime/gui/install.sh
 	$(BIN)/pip install -q --disable-pip-version-check kubernetes-validate
 
 test-editors: test-tools
