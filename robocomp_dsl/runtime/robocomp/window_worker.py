@@ -25,7 +25,7 @@ class QtLoop(EventLoop):
     def __init__(self) -> None:
         super().__init__()
         self._thread = get_ident()
-        self._application = QtCore.QCoreApplication.instance()
+        self._application: Any = QtCore.QCoreApplication.instance()
 
     @property
     def is_here(self) -> bool:
@@ -53,7 +53,7 @@ class LegacyWindow(LegacyWorker):
         self.Period = DEFAULT_PERIOD_MS
         self.timer = QtCore.QTimer(window)
         self.mutex = QtCore.QRecursiveMutex()
-        self.kill.connect(self._request_stop)
+        window.kill.connect(self._request_stop)
         self._add_machine(loop)
         self._lifecycle.set_period(0)  # the timer calls `compute`
         self._call_old_methods(old_init)
