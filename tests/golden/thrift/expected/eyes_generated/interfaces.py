@@ -40,13 +40,13 @@ Vector = rt.Float64Array
 class Status(rt.Struct, type_id="motor::Status"):
     """What the motor measures."""
 
-    position: rt.Double = 0.0  # [deg]
+    position: rt.Double = 0.0  # [deg] [deg]
     velocity: rt.Double = 0.0  # [deg/s] Velocity in degrees per second.
     mode: Mode = Mode.POSITION
     limits: ListOfLimits = rt.default()
     counts: MapOfStringToListOfInt32 = rt.default()
     raw: Binary = rt.default()
-    torques: Vector = rt.default()  # [Nm]
+    torques: Vector = rt.default()  # [Nm] [Nm]
 
 
 class Blocked(rt.DeclaredError, type_id="motor::Blocked"):
@@ -131,8 +131,8 @@ class MotorProxy(rt.Proxy):
 
     def move_to(self, angle: float, speed: float = 10.0) -> bool:
         """Moves the joint.
-        @param angle the target [deg]
-        @return whether it is within the limits
+        - `angle`: the target [deg]
+        Returns whether it is within the limits
 
         Units: angle in deg.
         May raise Blocked.
