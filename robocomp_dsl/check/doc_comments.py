@@ -14,6 +14,8 @@ from typing import Protocol
 
 from robocomp_dsl.source import Span
 
+_LANGUAGES = (".idsl", ".pdsl")
+"""Definitions of ROS, YARP and Thrift have rules of their own for comments."""
 _BEHIND = re.compile(
     r"[ \t]*[;,]?[ \t]*(?://[/!]?<?[ \t]*(?P<line>[^\r\n]*)"
     r"|/\*[*!]?<?[ \t]*(?P<block>[^\r\n]*?)\*/[ \t]*(?:\r?\n|\Z))"
@@ -53,6 +55,8 @@ class DocumentedNode(Protocol):
 def documentation_of(node: DocumentedNode) -> str:
     """The documentation of an item."""
     text, span = node.span.source.text, node.span
+    if span.source.path.suffix.lower() not in _LANGUAGES:
+        return plain(node.doc)
     before = _without_comment_of_previous(node.doc, text, span.start)
     return plain(before or _behind(text, span.end))
 

@@ -50,7 +50,7 @@ def test_documentation_of_fields_is_comment_on_their_line(tmp_path: Path) -> Non
         "i": "",
         "j": "",
     }
-    assert [value.doc for value in enums[0].values] == ["the first", "the last"]
+    assert [value.doc for value in enums[0].enumerators] == ["the first", "the last"]
 
 
 def test_documentation_of_parameter_is_comment_on_its_line(tmp_path: Path) -> None:

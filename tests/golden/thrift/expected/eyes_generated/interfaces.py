@@ -40,13 +40,13 @@ Vector = rt.Float64Array
 class Status(rt.Struct, type_id="motor::Status"):
     """What the motor measures."""
 
-    position: rt.Double = 0.0  # [deg] [deg]
+    position: rt.Double = 0.0  # [deg]
     velocity: rt.Double = 0.0  # [deg/s] Velocity in degrees per second.
     mode: Mode = Mode.POSITION
     limits: ListOfLimits = rt.default()
     counts: MapOfStringToListOfInt32 = rt.default()
     raw: Binary = rt.default()
-    torques: Vector = rt.default()  # [Nm] [Nm]
+    torques: Vector = rt.default()  # [Nm]
 
 
 class Blocked(rt.DeclaredError, type_id="motor::Blocked"):
