@@ -54,8 +54,9 @@ campaign-hosts: $(READY)
 highlight: $(READY)
 	$(BIN)/python -m editors.highlight
 
-# Install the programs that tests use besides Python: editors, the Slice compiler, and what Qt needs.
+# Install the programs that tests use besides Python: editors, the Slice compiler, systemd, and what Qt needs.
 test-tools: $(READY)
+	tests/hosts/install.sh
 	editors/install-test-tools.sh $(CURDIR)/$(BIN)/python
 	tests/runtime/gui/install.sh
 	$(BIN)/pip install -q --disable-pip-version-check kubernetes-validate
@@ -77,7 +78,7 @@ test-peers: $(READY)
 # Deployments over several hosts: OpenSSH servers, systemd and networks in namespaces of their own.
 test-hosts: $(READY)
 	tests/hosts/install.sh
-	$(BIN)/python -m pytest -q -n $(WORKERS) --dist loadfile -m "hosts and not slow" tests/hosts
+	$(BIN)/python -m pytest -q -n $(WORKERS) --dist loadfile -m hosts tests/hosts
 
 vsix:
 	cd editors/vscode && npm ci --no-audit --no-fund && npm run --silent package

@@ -130,6 +130,7 @@ class SpecificWorker(HealthMonitor):
         self.heartbeats.on_frame(now)
         if responses and self.params.enabled:
             self.touched = now
+            self.obstacle.on_touch(now, is_returning=self.machine.is_in("Returning"))
             self._withdraw(responses, frame.time, now)
 
     # subscribesTo RoboCompGenericArm::GenericArmState
@@ -157,7 +158,7 @@ class SpecificWorker(HealthMonitor):
             return
         if before is not self.withdrawal or not self._has_moved(before):
             self.withdrawals += 1
-            self._record_obstacle(responses[0], time, now)
+            self._record_obstacle(responses[0], time)
         self.withdrawal = after
         self.machine.send("touched")
         for response in new_responses(before, after):
@@ -195,10 +196,9 @@ class SpecificWorker(HealthMonitor):
         self.log.warning("withdrawal from `%s` limited: %s", field, limit.value)
         self.reflexevents_proxy.limited(limitation(cause_to_message(limit), field, time))
 
-    def _record_obstacle(self, response: Response, time: float, now: float) -> None:
+    def _record_obstacle(self, response: Response, time: float) -> None:
         """Wait longer before the next return if an obstacle has stayed."""
-        returning = self.machine.is_in("Returning")
-        if not self.obstacle.on_withdrawal(now, is_returning=returning):
+        if not self.obstacle.on_withdrawal():
             return
         field = response.field.name
         pause = self.obstacle.pause(self.params.hold, self.params.longest_pause)

@@ -29,6 +29,10 @@
      "struct"
      "throws"
      "true"
+     "unsigned"
+     "unsigned int"
+     "unsigned long"
+     "unsigned short"
      "void")
     (cdsl t
      "Communications"
@@ -204,6 +208,9 @@
      "timeout"
      "to"
      "true"
+     "unsigned int"
+     "unsigned long"
+     "unsigned short"
      "when"
      "within"))
   "For each language: whether the case of letters plays no part, and its words.")

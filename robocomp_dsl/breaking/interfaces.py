@@ -54,9 +54,12 @@ def _compare(was: Any, now: Any, changes: Changes) -> None:
         case Enum():
             _enum(was, now, changes)
         case types.Sequence():
-            _same_type(
-                was, now, was.element, now.element, f"elements of `{was.qualified}`", changes
-            )
+            what = f"elements of `{was.qualified}`"
+            _same_type(was, now, was.element, now.element, what, changes)
+            if was.bound != now.bound:
+                limits = [f"{limit or 'any number of'} {what}" for limit in (was.bound, now.bound)]
+                message = f"at most {limits[0]} were allowed, now {limits[1]}"
+                changes.add(codes.WIRE, was, now, message)
         case types.Dictionary():
             _same_type(was, now, was.key, now.key, f"keys of `{was.qualified}`", changes)
             _same_type(was, now, was.value, now.value, f"values of `{was.qualified}`", changes)

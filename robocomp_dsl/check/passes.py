@@ -108,7 +108,23 @@ def check_innermodel(path: Path, workspace: Workspace, report: Report) -> InnerM
         _report_unreadable(path, error, report)
         return None
     check_innermodel_rules(body, report)
+    if workspace.world_folders is not None:
+        from robocomp_dsl.check.innermodel.world_files import check_world_files  # noqa: PLC0415
+
+        check_world_files(body, workspace.world_folders, report)
     return body
+
+
+def check_model_file(path: Path, workspace: Workspace, report: Report) -> None:
+    """Check a model of a robot, URDF or MJCF, by itself."""
+    from robocomp_dsl.check.model_file.check_model import check_model  # noqa: PLC0415
+
+    try:
+        workspace.sources.read(path)
+    except UnreadableSource as error:
+        _report_unreadable(path, error, report)
+        return
+    check_model(path, report)
 
 
 def check_tactile(

@@ -57,6 +57,15 @@ packages = click.option(
     metavar="DIR",
     help="Resolve package:// URLs in DIR; repeatable.",
 )
+world_folders = click.option(
+    "--files",
+    "world_folders",
+    multiple=True,
+    type=click.Path(readable=False, path_type=Path),
+    metavar="DIR",
+    help="Search the meshes and pictures of InnerModel worlds in DIR, too; repeatable."
+    " ROBOCOMP_FILES has more folders.",
+)
 output_format = click.option(
     "--format",
     "output_format",

@@ -50,11 +50,12 @@ class Style:
 
 
 STYLES: Mapping[str, Style] = {
-    # sequence<T> Name;  f(int a) throws E;  float v [m];
+    # sequence<T, 9> Name;  f(int a) throws E;  float v [m];  double m[9] [N];
     "idsl": Style(
-        before=_BEFORE | {"<", ">"},
+        before=_BEFORE | {"<", ">", "INDEX"},
         after=_AFTER | {"<"},
         breaks=frozenset(("throws",)),
+        operators=True,
     ),
     # requires A, B as front;  language C++;  gui Qt(QWidget);
     "cdsl": Style(before=_BEFORE | {"+"}),

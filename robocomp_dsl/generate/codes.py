@@ -228,9 +228,10 @@ SIMPLIFIED_WORLD = Code(
     "RC633",
     Severity.WARNING,
     "part of the world is simplified",
-    """The world is built, but a part is replaced by something simpler: a mesh becomes a box if its
-file is missing or in a format that only OpenSceneGraph reads; a node with `engine="bullet"` inside
-another node is attached to that node instead of falling.""",
+    """The world is built, but a part is replaced by something simpler: a mesh that cannot be read
+is a small marker that touches nothing (`.ive` and `.osgb` need the program `osgconv` of
+OpenSceneGraph), a mesh in `.dae` is its bounding box; a node with `engine="bullet"` inside another
+node is attached to that node instead of falling.""",
 )
 
 OPT_IN_WITHOUT_DEVICE = Code(

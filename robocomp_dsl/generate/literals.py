@@ -9,11 +9,12 @@ from __future__ import annotations
 import math
 import re
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import groupby
 
 from robocomp_dsl.generate.python.layout import WIDTH
-from robocomp_dsl.model.types import Literal
+from robocomp_dsl.model.interface import Param
+from robocomp_dsl.model.types import Field, Literal
 
 _YAML_WORDS = {"", "~", "null", "true", "false", "yes", "no", "on", "off", "y", "n"}
 _YAML_PLAIN = re.compile(r"[A-Za-z_/][A-Za-z0-9_./-]*")
@@ -78,6 +79,12 @@ def yaml_key(name: str) -> str:
     """`name` as a key, quoted if a parser might read it as a boolean or null."""
     plain = _YAML_PLAIN.fullmatch(name) and name.lower() not in _YAML_WORDS
     return name if plain else quoted(name)
+
+
+def unit_table(members: Iterable[Field | Param]) -> str:
+    """`{"name": "unit"}` of those that have a unit, or an empty string."""
+    rows = [f"{quoted(m.name)}: {quoted(m.unit)}" for m in members if m.unit]
+    return f"{{{', '.join(rows)}}}" if rows else ""
 
 
 def lines(text: str) -> list[str]:

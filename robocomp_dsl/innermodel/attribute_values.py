@@ -7,6 +7,7 @@ would return it, or the text that the reader reads as this value.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -25,7 +26,16 @@ from robocomp_dsl.check.innermodel.tags import (
 )
 from robocomp_dsl.innermodel.errors import InnerModelError
 
-_ESCAPES = (("&", "&amp;"), ("<", "&lt;"), (">", "&gt;"), ("\n", "&#10;"), ("\t", "&#9;"))
+_ESCAPES = {
+    "&": "&amp;",
+    "<": "&lt;",
+    ">": "&gt;",
+    "\t": "&#9;",
+    "\n": "&#10;",
+    "\r": "&#13;",
+}
+"""`&` is first: the others contain it."""
+_NOT_IN_XML = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _EXACT = 1e15
 """Integers below this are written without an exponent."""
 
@@ -38,7 +48,7 @@ def checked_value(name: str, value: Any, kind: Kind) -> object:
             raise InnerModelError(f"`{name}` is one of {words}, not {value!r:.80}")
         return value
     if kind == TEXT:
-        return str(value)
+        return checked_text(name, value)
     if kind == FLAG:
         return bool(value)
     if kind in (EXTENT, SCALE):
@@ -51,6 +61,14 @@ def checked_value(name: str, value: Any, kind: Kind) -> object:
     if not found.is_integer():
         raise InnerModelError(f"`{name}` is an integer, not {value!r:.80}")
     return int(found)
+
+
+def checked_text(name: str, value: Any) -> str:
+    """A text as it is read again: XML has no control characters, and readers strip white space."""
+    text = str(value).strip()
+    if found := _NOT_IN_XML.search(text):
+        raise InnerModelError(f"`{name}` has the character {found[0]!a}, which XML does not have")
+    return text
 
 
 def _number(name: str, value: Any, kind: Kind) -> float:
@@ -99,6 +117,6 @@ def number_text(value: float) -> str:
 
 def escaped(text: str, quote: str = '"') -> str:
     """The text inside an attribute with these quotes."""
-    for character, entity in _ESCAPES:
+    for character, entity in _ESCAPES.items():
         text = text.replace(character, entity)
     return text.replace(quote, "&quot;" if quote == '"' else "&apos;")

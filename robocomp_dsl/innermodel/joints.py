@@ -26,7 +26,7 @@ class InnerModelJoint:
     def __init__(self, node: innermodel.Joint, read: Read, write: Write) -> None:
         self._read, self._write = read, write
         self.id, self.axis = node.id, node.axis
-        self.min, self.max, self.home = node.min, node.max, node.home
+        self.min, self.max, self.home = node.min, node.max, node.home or 0.0
 
     def getAngle(self) -> float:
         """The angle in rad."""
@@ -47,7 +47,7 @@ class InnerModelPrismaticJoint:
     def __init__(self, node: innermodel.PrismaticJoint, read: Read, write: Write) -> None:
         self._read, self._write = read, write
         self.id, self.axis, self.offset = node.id, node.axis, node.offset
-        self.min, self.max, self.home = node.min, node.max, node.home
+        self.min, self.max, self.home = node.min, node.max, node.home or 0.0
 
     def getPosition(self) -> float:
         """The position in mm; the frame is `position` + `offset` from its parent."""

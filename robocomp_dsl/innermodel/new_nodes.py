@@ -16,7 +16,7 @@ from typing import Any
 
 from robocomp_dsl.check.innermodel.rules import violations
 from robocomp_dsl.check.innermodel.tags import TAGS
-from robocomp_dsl.innermodel.attribute_values import checked_value
+from robocomp_dsl.innermodel.attribute_values import checked_text, checked_value
 from robocomp_dsl.innermodel.errors import InnerModelError
 from robocomp_dsl.innermodel.joints import InnerModelJoint, InnerModelPrismaticJoint
 from robocomp_dsl.innermodel.shared_state import NodeOrId, id_of, locked
@@ -75,7 +75,7 @@ class NewNodes(PoseUpdates):
         ends = {"lx": lx, "ly": ly, "lz": lz, "hx": hx, "hy": hy, "hz": hz}
         limits = {"min": min, "max": max, "home": home, "axis": axis, "port": port}
         self._new("joint", id, parent, **limits, **pose, **ends)
-        return self.getJoint(id)
+        return self.getJoint(id.strip())
 
     def newPrismaticJoint(
         self,
@@ -92,7 +92,7 @@ class NewNodes(PoseUpdates):
         """Add a slide at `value` + `offset`."""
         limits = {"min": min, "max": max, "home": home, "axis": axis, "port": port}
         self._new("prismaticjoint", id, parent, position=value, offset=offset, **limits)
-        return self.getPrismaticJoint(id)
+        return self.getPrismaticJoint(id.strip())
 
     def newDifferentialRobot(
         self,
@@ -261,9 +261,14 @@ class NewNodes(PoseUpdates):
     def _new(self, tag: str, id: str, parent: NodeOrId, **attributes: Any) -> Node:
         """Add a node of `tag` and return it."""
         known = TAGS[tag].attributes
-        values = {name: checked_value(name, v, known[name]) for name, v in attributes.items()}
+        values: dict[str, Any] = {
+            name: checked_value(name, v, known[name]) for name, v in attributes.items()
+        }
+        name = checked_text("id", id) if isinstance(id, str) else ""
+        if not name:
+            raise InnerModelError(f"the id of a node is a non-empty string, not {id!r:.80}")
         holder = id_of(parent)
-        node = TAGS[tag].node_class(id=id, tag=tag, span=_NO_FILE, **values)
+        node = TAGS[tag].node_class(id=name, tag=tag, span=_NO_FILE, **values)
         if messages := violations(node, self._tree.entry(holder).node):
             raise InnerModelError(f"`{id}`: {messages[0]}")
         self._tree.add(node, holder)

@@ -72,7 +72,7 @@ class NodeTree:
                 return replace(node, tx=tx, ty=ty, tz=tz, rx=rx, ry=ry, rz=rz)
         if isinstance(node, innermodel.PrismaticJoint):
             position = self.transforms.joint(id)
-            if position != node.position:
+            if position != (node.position or 0.0):
                 return replace(node, position=position)
         return node
 
@@ -95,8 +95,6 @@ class NodeTree:
 
     def add(self, node: innermodel.Node, parent: str) -> None:
         """Add a new node as the last child of a frame."""
-        if not isinstance(node.id, str) or not node.id:
-            raise InnerModelError(f"the id of a node is a non-empty string, not {node.id!r}")
         if node.id in self.entries:
             raise InnerModelError(f"there is a node `{node.id}` already")
         holder = self._holder(parent)
@@ -142,7 +140,7 @@ class NodeTree:
         self.entries[parent.id].children.append(node.id)
         self.frames[node.id] = node.id if innermodel.is_frame(node) else self.frames[parent.id]
         if isinstance(node, innermodel.Transform | innermodel.PrismaticJoint):
-            self.transforms.add(frame_of_data(lower_frame(node, parent)))
+            self.transforms.add(frame_of_data(lower_frame(node, parent, at_home=False)))
         elif innermodel.is_frame(node):
             self.transforms.add(Frame(node.id, parent.id))
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from robocomp_dsl.hardware.kinematics.jacobian import jacobian
-from robocomp_dsl.hardware.kinematics.rotations import rotation, smallest_angles
+from robocomp_dsl.hardware.kinematics.rotations import angles, rotation
 from robocomp_dsl.innermodel.errors import InnerModelError
 from robocomp_dsl.innermodel.shared_state import Floats, SharedState, locked, number, vector
 from robocomp_dsl.model import innermodel
@@ -48,7 +48,7 @@ class PoseQueries(SharedState):
                 matrix = tree.matrix(source, target)
                 place = matrix[:3, :3] @ values[:3] + matrix[:3, 3]
                 turned = matrix[:3, :3] @ rotation(*values[3:].tolist())
-                return np.array((*place.tolist(), *smallest_angles(turned)))
+                return np.array((*place.tolist(), *angles(turned)))
         raise InnerModelError(
             f"transform takes 3 or 6 numbers or an array (n, 3), not the shape {values.shape}"
         )
@@ -79,7 +79,7 @@ class PoseQueries(SharedState):
 
     def rotationAngles(self, destId: str, origId: str) -> Floats:
         """rx, ry, rz of the rotation from `origId` to `destId`, the solution of smaller norm."""
-        return np.array(smallest_angles(self.getTransformationMatrix(destId, origId)[:3, :3]))
+        return np.array(angles(self.getTransformationMatrix(destId, origId)[:3, :3]))
 
     @locked
     def jacobian(self, listaJoints: Sequence[str], motores: ArrayLike, endEffector: str) -> Floats:

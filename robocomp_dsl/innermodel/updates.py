@@ -13,7 +13,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robocomp_dsl.hardware.kinematics.rotations import pose_rows, smallest_angles
+from robocomp_dsl.hardware.kinematics.rotations import angles, pose_rows
+from robocomp_dsl.innermodel.attribute_values import checked_text
 from robocomp_dsl.innermodel.errors import InnerModelError
 from robocomp_dsl.innermodel.joints import InnerModelJoint, InnerModelPrismaticJoint
 from robocomp_dsl.innermodel.node_tree import POSE
@@ -107,7 +108,9 @@ class PoseUpdates(SharedState):
     def updateDisplay(self, displayId: str, texture: str) -> None:
         """Set the picture or colour of a display or plane."""
         plane = self._tree.node_of(displayId, innermodel.Plane, "a display")
-        self._tree.entries[displayId].node = replace(plane, texture=str(texture))
+        self._tree.entries[displayId].node = replace(
+            plane, texture=checked_text("texture", texture)
+        )
 
     @locked
     def getJoint(self, id: str) -> InnerModelJoint:
@@ -160,5 +163,5 @@ class PoseUpdates(SharedState):
         if parent_id and self._frame(parent_id) != transforms.parent(id):
             above = transforms.matrix(self._frame(parent_id), transforms.parent(id))
             in_parent = above @ np.array((*pose_rows(pose), (0.0, 0.0, 0.0, 1.0)))
-            pose = [*in_parent[:3, 3].tolist(), *smallest_angles(in_parent[:3, :3])]
+            pose = [*in_parent[:3, 3].tolist(), *angles(in_parent[:3, :3])]
         transforms.set_pose(id, pose)

@@ -8,6 +8,8 @@ its file if one of them has changed.
 
 from __future__ import annotations
 
+import os
+import threading
 from collections import defaultdict
 from contextlib import suppress
 from pathlib import Path
@@ -41,7 +43,7 @@ def write_file(path: Path, text: str, encoding: str) -> None:
         data = declare_utf8(text).encode()
     try:
         real = path.resolve()  # the target of a symbolic link, so that the link stays
-        new = real.with_name(f".{real.name}.new")
+        new = real.with_name(f".{real.name}.{os.getpid()}.{threading.get_ident()}.new")
         try:
             new.write_bytes(data)
             with suppress(FileNotFoundError):

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 
+from robocomp_dsl.check.missing_imports import lacks_imports_only
 from robocomp_dsl.check.passes import check_cdsl
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
@@ -192,7 +193,8 @@ def _check_result(
     """Check the new files before they are written; add the interfaces that they import.
 
     The findings of this check are not reported here but after the files are written. The component
-    is returned even if it is incomplete; `moved` gets it only if there are no errors.
+    is returned even if it is incomplete; `moved` gets it only if there are no errors but missing
+    imports, whose ports are left out.
     """
     for file in moved.files:
         workspace.sources.set_overlay(moved.out / file.path, file.text)
@@ -201,7 +203,8 @@ def _check_result(
             workspace.sources.set_overlay(moved.out / path.name, workspace.sources.read(path).text)
     check_report = Report()
     component = check_cdsl(moved.out / moved.description, workspace, check_report)
-    if component is None or check_report.has_errors:
+    is_partial = lacks_imports_only(check_report)
+    if component is None or (check_report.has_errors and not is_partial):
         message = f"`{moved.description}` has errors, so no code was generated"
         report.add(codes.BROKEN_DESCRIPTION, moved.span, message)
     else:

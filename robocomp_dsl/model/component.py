@@ -41,6 +41,14 @@ class Port(Record):
     middlewares: tuple[str, ...] = ()
     optional: bool = False
 
+    @property
+    def operations(self) -> tuple[Operation, ...]:
+        """The operations that the port has: of a topic those without outputs."""
+        every = self.interface.operations
+        if not self.role.is_topic:
+            return every
+        return tuple(o for o in every if o.as_topic() is not Pattern.QUERY)
+
     def pattern(self, operation: Operation) -> Pattern:
         """How `operation` travels through this port."""
         return operation.as_topic() if self.role.is_topic else operation.as_service()

@@ -45,15 +45,16 @@ class Transform(Node):
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Joint(Transform):
-    """A hinge about `axis`: its angle replaces rx, ry or rz, whose value is the initial angle.
+    """A hinge about `axis`: its angle replaces rx, ry or rz.
 
-    `home` is the target of the command to go to zero. `l…` and `h…` are stored but not used.
+    It starts at `home`, the target of the command to go to zero; if that is None, at rx, ry or rz.
+    `l…` and `h…` are stored but not used.
     """
 
     axis: str = "z"
     min: float = -math.inf
     max: float = math.inf
-    home: float = 0.0
+    home: float | None = None
     port: int = 0
     lx: float = 0.0
     ly: float = 0.0
@@ -65,24 +66,31 @@ class Joint(Transform):
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class PrismaticJoint(Node):
-    """A slide along `axis`: `position` + `offset` mm from its parent."""
+    """A slide along `axis`: it starts at `position` + `offset` mm from its parent.
+
+    `home` is the target of the command to go to zero. Each of `home` and `position` is the default
+    of the other; if both are None, 0.
+    """
 
     axis: str = "z"
     min: float = -math.inf
     max: float = math.inf
-    position: float = 0.0
+    position: float | None = None
     offset: float = 0.0
-    home: float = 0.0
+    home: float | None = None
     port: int = 0
     children: tuple[Node, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Motor(Node):
-    """The motor of its parent joint: `force` in N·m (N for a slide) after the `gear`."""
+    """The motor of its parent joint: `force` in N·m (N for a slide) after the `gear`.
+
+    `gear` is the number of turns of the motor per turn of the joint (rad per m of a slide).
+    """
 
     force: float = math.inf
-    gear: float = 1.0
+    gear: float = 100.0
     velocity: float = math.inf
 
 

@@ -40,15 +40,17 @@ LONG = Primitive("long", 64)
 FLOAT = Primitive("float", 32)
 DOUBLE = Primitive("double", 64)
 STRING = Primitive("string", 0)
+UINT16 = Primitive("unsigned short", 16)
+UINT32 = Primitive("unsigned int", 32)
+UINT64 = Primitive("unsigned long", 64)
 
-PRIMITIVES = {t.name: t for t in (BOOL, BYTE, SHORT, INT, LONG, FLOAT, DOUBLE, STRING)}
+PRIMITIVES = {
+    t.name: t for t in (BOOL, BYTE, SHORT, INT, LONG, UINT16, UINT32, UINT64, FLOAT, DOUBLE, STRING)
+}
 """The built-in types of IDSL by name."""
 
 INT8 = Primitive("int8", 8)
 OCTET = Primitive("octet", 8)
-UINT16 = Primitive("uint16", 16)
-UINT32 = Primitive("uint32", 32)
-UINT64 = Primitive("uint64", 64)
 ROS_PRIMITIVES = {
     "bool": BOOL,
     "byte": OCTET,
@@ -156,7 +158,7 @@ class Enum(Declaration):
 
 
 class Sequence(Declaration):
-    """`sequence<element> name`, or the array of a field in a ROS definition.
+    """`sequence<element> name`, `sequence<element, bound> name`, or the array of a field.
 
     The latter has no declaration: `is_anonymous`, and its name is that of its type, `double[36]`.
     `size` is the number of elements of a fixed array, `bound` the largest number; 0: any.

@@ -6,6 +6,7 @@ Exception
 │   ├── AmbiguousServer       several serve it, and no wire selects one
 │   ├── Timeout               no answer arrived in time
 │   ├── InterfaceMismatch     the two sides were generated from different interfaces
+│   ├── NotPublishable        an operation that returns something is called on a topic
 │   ├── CallRejected          a monitor of the connection rejected the call
 │   ├── RemoteError           the other side failed with an error that it does not declare
 │   └── MalformedMessage      the bytes do not match the interface (offset and field)
@@ -33,6 +34,7 @@ __all__ = [
     "MonitorError",
     "NoServer",
     "NotImplementedOperation",
+    "NotPublishable",
     "RemoteError",
     "Timeout",
 ]
@@ -63,6 +65,10 @@ class Timeout(MiddlewareError):  # the usual name in middlewares
 
 class InterfaceMismatch(MiddlewareError):
     """The two components were generated from different versions of the interface."""
+
+
+class NotPublishable(MiddlewareError):
+    """An operation that returns something is called on a published port: nobody would reply."""
 
 
 class SchemaError(MiddlewareError):

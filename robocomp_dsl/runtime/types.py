@@ -49,6 +49,7 @@ from robocomp_dsl.runtime.errors import (
     MiddlewareError,
     NoServer,
     NotImplementedOperation,
+    NotPublishable,
     RemoteError,
     Timeout,
 )
@@ -146,6 +147,7 @@ __all__ = [
     "NestedColumn",
     "NoServer",
     "NotImplementedOperation",
+    "NotPublishable",
     "Octet",
     "OctetArray",
     "OctetColumn",

@@ -70,7 +70,11 @@ class InnerModelManagerError(
     text: rt.String = ""
 
 
-class Colored3DPoint(rt.Struct, type_id="RoboCompInnerModelManager::Colored3DPoint"):
+class Colored3DPoint(
+    rt.Struct,
+    type_id="RoboCompInnerModelManager::Colored3DPoint",
+    units={"x": "mm", "y": "mm", "z": "mm"},
+):
     """RoboCompInnerModelManager::Colored3DPoint."""
 
     x: rt.Float = 0.0  # [mm]
@@ -93,7 +97,18 @@ class PointCloudVector(rt.StructArray[Colored3DPoint]):
     b = rt.UInt8Column()
 
 
-class Plane3D(rt.Struct, type_id="RoboCompInnerModelManager::Plane3D"):
+class Plane3D(
+    rt.Struct,
+    type_id="RoboCompInnerModelManager::Plane3D",
+    units={
+        "px": "mm",
+        "py": "mm",
+        "pz": "mm",
+        "width": "mm",
+        "height": "mm",
+        "thickness": "mm",
+    },
+):
     """A box that is thin along its normal: centre, normal, size. The texture is a file
     or a colour.
     """
@@ -110,7 +125,11 @@ class Plane3D(rt.Struct, type_id="RoboCompInnerModelManager::Plane3D"):
     texture: rt.String = ""
 
 
-class coord3D(rt.Struct, type_id="RoboCompInnerModelManager::coord3D"):
+class coord3D(
+    rt.Struct,
+    type_id="RoboCompInnerModelManager::coord3D",
+    units={"x": "mm", "y": "mm", "z": "mm"},
+):
     """RoboCompInnerModelManager::coord3D."""
 
     x: rt.Float = 0.0  # [mm]
@@ -118,7 +137,11 @@ class coord3D(rt.Struct, type_id="RoboCompInnerModelManager::coord3D"):
     z: rt.Float = 0.0  # [mm]
 
 
-class Pose3D(rt.Struct, type_id="RoboCompInnerModelManager::Pose3D"):
+class Pose3D(
+    rt.Struct,
+    type_id="RoboCompInnerModelManager::Pose3D",
+    units={"x": "mm", "y": "mm", "z": "mm", "rx": "rad", "ry": "rad", "rz": "rad"},
+):
     """RoboCompInnerModelManager::Pose3D."""
 
     x: rt.Float = 0.0  # [mm]
@@ -129,7 +152,11 @@ class Pose3D(rt.Struct, type_id="RoboCompInnerModelManager::Pose3D"):
     rz: rt.Float = 0.0  # [rad]
 
 
-class jointType(rt.Struct, type_id="RoboCompInnerModelManager::jointType"):
+class jointType(
+    rt.Struct,
+    type_id="RoboCompInnerModelManager::jointType",
+    units={"min": "rad", "max": "rad"},
+):
     """A hinge about `axis` with its limits. A `port` other than 0 also serves it as a
     JointMotor.
     """
@@ -176,7 +203,7 @@ class Refused(rt.DeclaredError, type_id="RoboCompSimulation::Refused"):
     what: rt.String = ""
 
 
-class State(rt.Struct, type_id="RoboCompSimulation::State"):
+class State(rt.Struct, type_id="RoboCompSimulation::State", units={"time": "s"}):
     """RoboCompSimulation::State."""
 
     time: rt.Double = 0.0  # [s] Simulated time since the start.
@@ -195,7 +222,11 @@ Names = list[rt.String]
 Values = rt.Float64Array
 
 
-class Pose(rt.Struct, type_id="RoboCompSimulation::Pose"):
+class Pose(
+    rt.Struct,
+    type_id="RoboCompSimulation::Pose",
+    units={"x": "mm", "y": "mm", "z": "mm", "rx": "rad", "ry": "rad", "rz": "rad"},
+):
     """RoboCompSimulation::Pose."""
 
     x: rt.Double = 0.0  # [mm]
@@ -229,7 +260,7 @@ class Model(rt.Struct, type_id="RoboCompSimulation::Model"):
     data: Bytes = rt.default()
 
 
-class Sight(rt.Struct, type_id="RoboCompSimulation::Sight"):
+class Sight(rt.Struct, type_id="RoboCompSimulation::Sight", units={"time": "s"}):
     """The visible state at one instant, in MuJoCo's conventions: m, z up."""
 
     time: rt.Double = 0.0  # [s]
@@ -265,6 +296,7 @@ SIMULATION = rt.Interface(
         inputs={"fork": rt.Int, "seconds": rt.Double},
         returns=rt.Double,
         throws=(Refused,),
+        units={"seconds": "s"},
     ),
     rt.Operation(
         "drive",
@@ -276,6 +308,7 @@ SIMULATION = rt.Interface(
             "rot": rt.Double,
         },
         throws=(Refused,),
+        units={"side": "mm/s", "adv": "mm/s", "rot": "rad/s"},
     ),
     rt.Operation(
         "move",

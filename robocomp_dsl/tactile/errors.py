@@ -33,6 +33,11 @@ class Fault(StrEnum):
     BODY = "body"
     OFF_BODY = "off body"
     TWICE = "twice"
+    DIRECTION = "direction"
+    FRAME = "frame"
+    CHAIN = "chain"
+    SURFACE = "surface"
+    UNANSWERED = "unanswered"
 
 
 class DescriptionError(TactileError):

@@ -34,7 +34,7 @@ def test_changes_of_imported_ros_message_are_breaking(tmp_path: Path) -> None:
     old = version(tmp_path / "old", "uint16 width\nfloat64[9] c\nint32[] few [1]\nstring<=4 s\n")
     new = version(tmp_path / "new", "uint32 width\nfloat64[6] c\nint32[] few [2]\nstring<=5 s\n")
     assert changes(old, new) == [
-        "RC641: `demo_msgs::Reading.width` was uint16, now uint32",
+        "RC641: `demo_msgs::Reading.width` was unsigned short, now unsigned int",
         "RC641: `demo_msgs::Reading.c` was double[9], now double[6]",
         "RC644: the default of `demo_msgs::Reading.few` was (1,), now (2,)",
         "RC641: `demo_msgs::Reading.s` was string<=4, now string<=5",

@@ -1,4 +1,4 @@
-"""The import resolver: order of folders, and rejection of paths outside them."""
+"""The import resolver: order of folders, and paths as they are written."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def test_import_resolver_uses_last_path_part(tmp_path: Path, written: str) -> No
 @pytest.mark.parametrize(
     "written",
     [
-        "../outside/Laser.idsl",
+        "../elsewhere/Laser.idsl",
         "../../etc/passwd",
         "..",
         ".",
@@ -85,6 +85,63 @@ def test_import_resolver_stays_in_its_folders(tmp_path: Path, written: str) -> N
     _, report = _component(tmp_path, written, _workspace(tmp_path))
     assert {diagnostic.code.id for diagnostic in report} <= {"RC201", "RC207"}
     assert report.has_errors
+
+
+def test_import_resolver_tries_written_path_first(tmp_path: Path) -> None:
+    for mark in ("outside", "here", "first"):
+        _laser(tmp_path / mark, mark)
+    component, report = _component(tmp_path, "../outside/Laser.idsl", _workspace(tmp_path))
+    assert not report.has_errors
+    assert component.ports[0].interface.module == "outside"
+    (tmp_path / "outside" / "Laser.idsl").unlink()
+    component, _ = _component(tmp_path, "../outside/Laser.idsl", _workspace(tmp_path))
+    assert component.ports[0].interface.module == "here"
+
+
+def test_import_resolver_is_relative_to_importing_file(tmp_path: Path) -> None:
+    deep = tmp_path / "other" / "IDSLs"
+    (deep / "types").mkdir(parents=True)
+    (deep / "types" / "Pose.idsl").write_text("module Deep { struct Pose { int x; }; };\n")
+    (tmp_path / "here").mkdir()
+    (tmp_path / "here" / "Pose.idsl").write_text("module Here { struct Wrong { int x; }; };\n")
+    text = 'import "types/Pose.idsl";\nmodule L {{ interface Laser {{ {} }}; }};\n'
+    (deep / "Laser.idsl").write_text(text.format("Pose get();"))
+    (deep / "Scan.idsl").write_text('import "Laser.idsl";\nmodule S { interface Scan { }; };\n')
+    component, report = _component(tmp_path, "../other/IDSLs/Laser.idsl", _workspace(tmp_path))
+    assert not report.has_errors
+    assert [module.name for module in component.modules[0].imports] == ["Deep"]
+    _, report = _component(tmp_path, "../other/IDSLs/Scan.idsl", _workspace(tmp_path))
+    assert "RC201" not in {diagnostic.code.id for diagnostic in report}
+
+
+def test_import_resolver_finds_interfaces_beside_and_above(tmp_path: Path) -> None:
+    places = ["here/interfaces", "here/interfaces/IDSLs", "interfaces", "interfaces/IDSLs"]
+    for mark, place in enumerate(places):
+        (tmp_path / place).mkdir(parents=True, exist_ok=True)
+        _laser(tmp_path / place, f"M{mark}")
+    _laser(tmp_path / "first", "first")
+    order = ["first", "M0", "M1", "M2", "M3"]
+    workspace = Workspace([tmp_path / "first"], {}, shipped=tmp_path / "deep" / "shipped")
+    for mark, place in zip(order, ["first", *places], strict=True):
+        component, report = _component(tmp_path, "/robocomp/IDSLs/Laser.idsl", workspace)
+        assert not report.has_errors
+        assert component.ports[0].interface.module == mark
+        (tmp_path / place / "Laser.idsl").unlink()
+
+
+def test_import_resolver_accepts_files_of_same_name_in_two_folders(tmp_path: Path) -> None:
+    (tmp_path / "here").mkdir()
+    for mark in ("a", "b"):
+        _laser(tmp_path / "here" / mark, mark)
+    path = tmp_path / "here" / "two.idsl"
+    path.write_text('import "a/Laser.idsl";\nimport "b/Laser.idsl";\nmodule M { };\n')
+    report = Report()
+    modules = check_idsl(path, Workspace((), {}), report)
+    assert modules is not None
+    assert [module.name for module in modules[0].imports] == ["a", "b"]
+    path.write_text('import "a/Laser.idsl";\nimport "./a/Laser.idsl";\nmodule M { };\n')
+    check_idsl(path, Workspace((), {}), report)
+    assert [diagnostic.code.id for diagnostic in report] == ["RC208"]
 
 
 def test_import_resolver_gives_one_file_per_name(tmp_path: Path) -> None:

@@ -290,3 +290,30 @@ def test_component_dry_run_does_not_claim_changes(rcgen: Rcgen, talker: Path, mo
     assert tree(talker) == before
     assert "this stub was added" in rcgen("component", "talker.cdsl").err
     assert rcgen("component", "talker.cdsl", "--check").code == 0
+
+
+def test_component_is_generated_without_what_a_missing_import_declares(
+    rcgen: Rcgen, talker: Path
+) -> None:
+    text = CDSL.replace("implements Talk;", "implements Talk; requires Gone;")
+    (talker / "talker.cdsl").write_text('import "Gone.idsl";\n' + text)
+    run = rcgen("component", "talker.cdsl")
+    assert run.code == 1
+    assert "RC201" in run.err
+    assert "generated without `Gone`" in run.err
+    assert "def Talk_say" in (talker / "specificworker.py").read_text()
+    assert "Gone" not in (talker / "talker_generated" / "genericworker.py").read_text()
+
+
+def test_component_of_topic_with_outputs_has_the_other_operations(
+    rcgen: Rcgen, talker: Path
+) -> None:
+    idsl = "module M { interface Talk { int say(string text); void said(string text); }; };\n"
+    (talker / "Talk.idsl").write_text(idsl)
+    (talker / "talker.cdsl").write_text(CDSL.replace("implements", "subscribesTo"))
+    run = rcgen("component", "talker.cdsl")
+    assert run.code == 0
+    assert "warning[RC314]: `say` of `Talk` returns something: not part of the topic" in run.err
+    text = (talker / "specificworker.py").read_text()
+    assert "def Talk_said" in text
+    assert "Talk_say(" not in text

@@ -52,7 +52,8 @@ def test_new_finds_interface_in_folder(rcgen: Rcgen, here: Path) -> None:
     (here / "lib").mkdir()
     (here / "lib" / "File.idsl").write_text("module M { interface Own { void go(); }; };\n")
     assert rcgen("new", "arm", "--requires", "Own", "-I", "lib").code == 0
-    assert 'import "File.idsl";' in (here / "arm" / "arm.cdsl").read_text()
+    assert 'import "../lib/File.idsl";' in (here / "arm" / "arm.cdsl").read_text()
+    assert rcgen("check", "arm/arm.cdsl").code == 0
 
 
 @pytest.mark.parametrize("name", ["1a", "a b", "a/b", "../a", "a;b", "{{a}}", "", "é", "a" * 200])

@@ -192,15 +192,6 @@ def test_view_reports_overlapping_bodies_with_location(rcgen: Rcgen, tmp_path: P
     assert "world.xml:2:1" in result.err
 
 
-def test_view_replaces_missing_mesh_by_box(rcgen: Rcgen, tmp_path: Path) -> None:
-    path = tmp_path / "world.xml"
-    path.write_text('<innerModel>\n  <mesh id="m" file="gone.3ds" scale="100"/></innerModel>')
-    result = rcgen("view", str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
-    assert result.code == 0
-    assert "RC652]: the mesh `m`" in result.err
-    assert "world.xml:2:3" in result.err
-
-
 def test_view_of_empty_world(tmp_path: Path) -> None:
     """In a process, so that output of libraries is captured, too."""
     path = tmp_path / "world.xml"

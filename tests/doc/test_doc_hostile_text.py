@@ -22,7 +22,7 @@ FILES = {
         module Hostile {{
             /** {HOSTILE} */
             struct S {{ /** {HOSTILE} */ string a = "<script>{{{{ x }}}}</script>|";
-                int len [a<b|c]; }};
+                int len; }};
             /** {HOSTILE} */
             enum E {{ /** {HOSTILE} */ one }};
             /** {HOSTILE} */

@@ -6,7 +6,7 @@ import pytest
 from robocomp_dsl.hardware.description.scene import Frame, Motion
 from robocomp_dsl.hardware.devices.errors import CommandRefused, FrameError
 from robocomp_dsl.hardware.kinematics.jacobian import jacobian
-from robocomp_dsl.hardware.kinematics.rotations import angles, inverse, rotation, smallest_angles
+from robocomp_dsl.hardware.kinematics.rotations import angles, inverse, rotation
 from robocomp_dsl.hardware.kinematics.transforms import TransformTree
 
 QUARTER = math.pi / 2
@@ -157,20 +157,3 @@ def test_transform_tree_may_be_deep() -> None:
     assert tree.transform((0, 0, 0), "f4999", "root") == pytest.approx((0, 0, 5000))
     tree.remove("f10")
     assert len(tree) == 11
-
-
-def test_smallest_angles_of_turn_about_one_axis_are_that_turn() -> None:
-    for axis in range(3):
-        for degrees in range(-179, 180):
-            turn = [0.0, 0.0, 0.0]
-            turn[axis] = math.radians(degrees)
-            assert smallest_angles(rotation(*turn)) == pytest.approx(turn, abs=1e-9)
-
-
-def test_smallest_angles_reproduce_rotation_and_are_not_larger_than_other_solution() -> None:
-    rng = np.random.default_rng(7)
-    for turn in rng.uniform(-math.pi, math.pi, (500, 3)):
-        found = smallest_angles(rotation(*turn))
-        assert rotation(*found) == pytest.approx(rotation(*turn), abs=1e-9)
-        assert np.linalg.norm(found) <= np.linalg.norm(turn) + 1e-9
-        assert np.linalg.norm(found) <= np.linalg.norm(angles(rotation(*turn))) + 1e-9

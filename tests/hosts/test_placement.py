@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import pytest
 
@@ -31,16 +32,18 @@ def test_plan_asks_hosts_for_their_load(app: HostedApp) -> None:
     assert "arm (arm) by load on robot, base, placed when started" in offline.stdout
     shown = rcdeploy("plan", "--hosts", str(app.path))
     assert shown.code == 0, shown.stderr
-    assert "1. arm (arm) on robot" in shown.stdout
-    assert "arm on robot: lowest score" in shown.stdout
+    # Both are this machine, whose load may change between the two questions.
+    placed = re.search(r"^ *1\. arm \(arm\) on (robot|base)\b", shown.stdout, re.MULTILINE)
+    assert placed, shown.stdout
+    assert f"arm on {placed[1]}: lowest score" in shown.stdout
     assert "load 1 min" in shown.stdout
     data = json.loads(rcdeploy("plan", "--hosts", "--format", "json", str(app.path)).stdout)
     (choice,) = data["placement"]
-    robot, base = choice["candidates"]
-    assert robot["chosen"]
-    assert not base["chosen"]
-    assert robot["load"]["cpus"] >= 1
-    assert robot["score"] <= base["score"] + 1
+    candidates = choice["candidates"]
+    assert [candidate["host"] for candidate in candidates] == ["robot", "base"]
+    assert all(candidate["load"]["cpus"] >= 1 for candidate in candidates)
+    lowest = min(candidates, key=lambda candidate: candidate["score"])  # of two, the first
+    assert [candidate for candidate in candidates if candidate["chosen"]] == [lowest]
 
 
 def test_plan_names_host_that_does_not_answer(app: HostedApp) -> None:

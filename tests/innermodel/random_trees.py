@@ -24,7 +24,12 @@ _POSES = {
 }
 
 
-def random_tree(seed: int, size: int = 25, frames: tuple[str, ...] = FRAMES) -> str:
+def random_tree(
+    seed: int,
+    size: int = 25,
+    frames: tuple[str, ...] = FRAMES,
+    leaves: tuple[str, ...] = LEAVES,
+) -> str:
     """A file with `size` frames, about half as many leaves, comments, and mixed layout."""
     rng = random.Random(seed)
     parents: dict[str, str] = {}
@@ -34,7 +39,7 @@ def random_tree(seed: int, size: int = 25, frames: tuple[str, ...] = FRAMES) -> 
         tags[f"f{number}"] = rng.choice(frames)
     for number in range(size // 2):
         parents[f"leaf{number}"] = f"f{rng.randrange(size)}"
-        tags[f"leaf{number}"] = rng.choice(LEAVES)
+        tags[f"leaf{number}"] = rng.choice(leaves)
 
     def element(name: str, depth: int) -> str:
         indent = rng.choice(("    ", "\t", "  ")) * depth

@@ -123,6 +123,8 @@ class _Maker:
         inside = ""
         if TAGS[name].holds and depth < deep:
             inside = self.many(depth + 1, self.rng.choice((0, 0, 1, 2) if depth > 1 else (1, 2, 3)))
+        if TAGS[name] is TAGS["touchsensor"]:
+            inside += '<plane collide="1"/>\n'  # without a shape that collides it is an error
         if self.odd and self.rng.random() < 0.1:
             inside += "stray text &amp; such"
         return (

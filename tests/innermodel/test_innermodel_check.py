@@ -8,6 +8,7 @@ import pytest
 from robocomp_dsl.check.passes import check_innermodel
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.generate.scene.scene import lower_body
 from robocomp_dsl.model import innermodel
 from robocomp_dsl.model.innermodel import InnerModel
 
@@ -41,7 +42,7 @@ def single_node(folder: Path, text: str) -> innermodel.Node:
         (
             '<joint id="a"/>',
             innermodel.Joint,
-            {"axis": "z", "min": -math.inf, "max": math.inf, "home": 0},
+            {"axis": "z", "min": -math.inf, "max": math.inf, "home": None},
         ),
         ('<joint id="a" axis="X" port="10067"/>', innermodel.Joint, {"axis": "x", "port": 10067}),
         (
@@ -232,3 +233,35 @@ def test_check_innermodel_rejects_touch_sensor_without_shape(
         assert finding.span.text == "<touchsensor"
         assert finding.message == "`bump` would never feel anything: no shape in it collides"
         assert help_text in finding.help
+
+
+@pytest.mark.parametrize(
+    ("joint", "home", "start"),
+    [
+        ('<joint id="j" axis="x" min="-1" max="1" home="1.5"/>', "1.5", 1.0),
+        ('<joint id="j" axis="x" rx="0.5" min="0.2" max="1" home="0"/>', "0", 0.2),
+        ('<prismaticjoint id="j" axis="x" min="10" max="50" home="-3"/>', "-3", 10.0),
+    ],
+)
+def test_check_innermodel_warns_of_home_outside_limits(
+    tmp_path: Path, joint: str, home: str, start: float
+) -> None:
+    """As in RoboComp, the joint starts at the nearest limit."""
+    found, report = checked(tmp_path, joint)
+    message = f"`home` ({home}) is outside `min` … `max`: that of `j` is {start:g}"
+    assert [(d.code.id, d.message) for d in report] == [("RC785", message)]
+    frame = lower_body(found)["frames"][1]
+    assert (frame["turn"] if "turn" in frame else frame["place"])[0] == start
+    assert frame["motion"]["home"] == start
+
+
+@pytest.mark.parametrize("value", ["gear", "force", "velocity"])
+def test_check_innermodel_rejects_motor_value_that_is_not_positive(
+    tmp_path: Path, value: str
+) -> None:
+    text = f'<joint id="j"><motor id="m" {value}="-5"/></joint>'
+    found, report = checked(tmp_path, text)
+    assert [d.message for d in report] == [
+        "`force`, `gear` and `velocity` of a motor must be positive"
+    ]
+    assert value not in lower_body(found)["frames"][1]["motion"]

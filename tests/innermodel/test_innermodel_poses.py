@@ -289,3 +289,15 @@ def test_copied_innermodel_is_independent(arm: InnerModel) -> None:
     assert twin.transform("world", "new") == pytest.approx([351, 300, 0])
     arm.removeNode("robot")
     assert "hand" in twin
+
+
+def test_innermodel_joint_has_its_own_angle_until_a_simulator_sets_home() -> None:
+    """As in RoboComp: only its simulator sets the joints that it serves to their homes."""
+    model = InnerModel.fromString(
+        """<innerModel><joint id="hinge" axis="y" ry="0.3" home="1"/><joint id="plain"/>
+        <prismaticjoint id="slide" axis="x" home="40"/></innerModel>"""
+    )
+    hinge, slide, plain = model.getJoint("hinge"), model.getPrismaticJoint("slide"), "plain"
+    assert (hinge.getAngle(), hinge.home) == (0.3, 1.0)
+    assert (slide.getPosition(), slide.home) == (0.0, 40.0)
+    assert model.getJoint(plain).home == 0.0

@@ -201,7 +201,10 @@ def test_empty_innermodel_is_built_and_saved(tmp_path: Path) -> None:
     [
         (lambda m: m.newTransform("arm", "static", "robot"), "there is a node `arm` already"),
         (lambda m: m.newTransform("x", "static", "nobody"), "no node `nobody`"),
-        (lambda m: m.newTransform("", "static", "robot"), "non-empty string"),
+        (lambda m: m.newTransform(" ", "static", "robot"), "non-empty string"),
+        (lambda m: m.newTransform(5, "static", "robot"), "non-empty string"),
+        (lambda m: m.newTransform("a\0b", "static", "robot"), "which XML does not have"),
+        (lambda m: m.updateDisplay("shield", "\ud800.png"), "which XML does not have"),
         (lambda m: m.newTransform("x", "fast", "robot"), "`engine` is one of `static`, `bullet`"),
         (lambda m: m.newTransform("x", "static", "robot", tx=float("nan")), "`tx` is nan"),
         (lambda m: m.newTransform("x", "static", "shield"), "cannot hold other nodes"),
@@ -327,6 +330,16 @@ def edit(model: InnerModel, rng: random.Random, new: str) -> None:
             model.moveSubTree(name, target)
         case 8 if len(model) > 12:
             model.removeNode(name)
+
+
+def test_innermodel_reads_back_texts_with_special_characters() -> None:
+    model = InnerModel.fromString(ROBOT)
+    model.updateDisplay("shield", """a "b" & 'c' <d>\te\r\nf \N{SNOWMAN}.png """)
+    model.newTransform(""" "x" & <y> 'z' """, "static", "robot")
+    model.newMesh("mesh", "arm", """ 'm' & "n".stl """)
+    again = InnerModel.fromString(model.toString())
+    same(again, model)
+    assert """"x" & <y> 'z'""" in again
 
 
 @pytest.mark.parametrize("seed", range(25))

@@ -41,12 +41,20 @@ HISTORY: list[tuple[str, str, dict[str, object]]] = [
     (
         "joint",
         f'{ENDS} {MOVED} {TURNED} min="-1" max="1" port="9" axis="x" home="0.5"',
-        STILL | {"min": -INF, "max": INF, "port": 0, "axis": "z", "home": 0},
+        STILL | {"min": -INF, "max": INF, "port": 0, "axis": "z", "home": None},
     ),
     (
         "prismaticjoint",
         'min="-1" max="1" position="1" offset="2" port="9" axis="y" home="0.5"',
-        {"min": -INF, "max": INF, "position": 0, "offset": 0, "port": 0, "axis": "z", "home": 0},
+        {
+            "min": -INF,
+            "max": INF,
+            "position": None,
+            "offset": 0,
+            "port": 0,
+            "axis": "z",
+            "home": None,
+        },
     ),
     (
         "touchsensor",

@@ -92,7 +92,7 @@ async def test_completion_edits_of_innermodel(editor: Editor) -> None:
     assert isinstance(item.text_edit, lsp.TextEdit)
     assert edited([item.text_edit], text.replace("|", "")) == IN.format('<joint id="a" home="x"/>')
     assert isinstance(item.documentation, lsp.MarkupContent)
-    assert "Default: `0`" in item.documentation.value
+    assert "default: its angle about `axis`" in item.documentation.value
 
 
 HOVERS = [

@@ -43,7 +43,9 @@ def test_service_channel_command_takes_slot_again_when_interrupted(
     server = PortRecord("server", PROBE.name, "server", "Probe", PROBE.hash.hex(), "inproc")
     registry.add("server", server)
     selector = ServerSelector(Endpoint(PROBE, "client", "Probe"), registry, group, lambda *_: True)
-    channel = ServiceChannel(context, registry, selector, lambda *_: BrokenConnection())
+    channel = ServiceChannel(
+        context, registry, selector, lambda *_: BrokenConnection(), lambda _: None
+    )
     note = channel.bind(PROBE.operation("note"))
 
     def interrupt(*_: object) -> NoReturn:

@@ -35,8 +35,8 @@ def test_migrate_python_component_checks_clean(rcgen, old: Path, tmp_path: Path)
     assert (out / "etc/room.xml").is_file()
     report = (out / "MIGRATION.md").read_text()
     for words in (
-        "`follow/etc/config:16`",
-        "`follow/src/genericworker.py`",
+        "/follow/etc/config:16`",
+        "/follow/src/genericworker.py`",
         "`laser` is a stand-in",
     ):
         assert words in report
@@ -82,8 +82,8 @@ def test_migrate_cpp_component_keeps_descriptions(rcgen, tmp_path: Path) -> None
     assert done.code == 1
     out = tmp_path / "eyes-migrated"
     report = (out / "MIGRATION.md").read_text()
-    assert "`eyes/src/specificworker.cpp` C++ code is not migrated" in report
-    assert "`eyes/src/genericworker.cpp`" in report.partition("For information")[2]
+    assert "`../eyes/src/specificworker.cpp` C++ code is not migrated" in report
+    assert "`../eyes/src/genericworker.cpp`" in report.partition("For information")[2]
     assert "language Python;" in (out / "eyes.cdsl").read_text()
     assert rcgen("check", out).code == 0
     assert rcgen("component", "--check", out / "eyes.cdsl").code == 0
@@ -97,3 +97,26 @@ def test_migrate_rejects_migrated_component(rcgen, old: Path, tmp_path: Path) ->
     assert done.code == 1
     assert "RC924" in done.err
     assert not (tmp_path / "newer").exists()
+
+
+def test_migrate_generates_the_rest_if_an_import_is_missing(rcgen, tmp_path: Path) -> None:
+    old = tmp_path / "old"
+    (old / "src").mkdir(parents=True)
+    (old / "Tags.idsl").write_text(
+        "module M { interface Tags { void seen(int number); int count(); }; };\n"
+    )
+    (old / "eye.cdsl").write_text(
+        'import "Tags.idsl";\nimport "Gone.idsl";\nComponent eye { Communications'
+        " { subscribesTo Tags; requires Gone; }; language Python; };\n"
+    )
+    (old / "src" / "specificworker.py").write_text(
+        "from genericworker import *\n\n\nclass SpecificWorker(GenericWorker):\n"
+        "    def compute(self):\n        return True\n\n"
+        "    def Tags_seen(self, number):\n        pass\n"
+    )
+    out = tmp_path / "new"
+    done = rcgen("migrate", old, "-o", out)
+    assert done.code == 1
+    assert "Gone.idsl" in done.err
+    assert (out / "Tags.idsl").is_file()
+    assert "Tags_seen" in (out / "eye_generated" / "genericworker.py").read_text()

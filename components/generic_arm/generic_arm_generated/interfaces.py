@@ -58,7 +58,9 @@ Interactions = list[InteractionMode]
 Codes = rt.Int32Array
 
 
-class BoardState(rt.Struct, type_id="RoboCompControlBoard::BoardState"):
+class BoardState(
+    rt.Struct, type_id="RoboCompControlBoard::BoardState", units={"time": "s"}
+):
     """All measurements of one instant, in the order of the joints."""
 
     time: rt.Double = 0.0  # [s]
@@ -89,7 +91,17 @@ class Targets(rt.Struct, type_id="RoboCompControlBoard::Targets"):
     current: Values = rt.default()
 
 
-class JointInfo(rt.Struct, type_id="RoboCompControlBoard::JointInfo"):
+class JointInfo(
+    rt.Struct,
+    type_id="RoboCompControlBoard::JointInfo",
+    units={
+        "low": "rad",
+        "high": "rad",
+        "speedLimit": "rad/s",
+        "torqueLimit": "Nm",
+        "maxCurrent": "A",
+    },
+):
     """Properties of a joint, with its current limits."""
 
     name: rt.String = ""
@@ -137,7 +149,11 @@ class Pid(rt.Struct, type_id="RoboCompControlBoard::Pid"):
     feedforward: rt.Double = 0.0
 
 
-class Impedance(rt.Struct, type_id="RoboCompControlBoard::Impedance"):
+class Impedance(
+    rt.Struct,
+    type_id="RoboCompControlBoard::Impedance",
+    units={"stiffness": "Nm/rad", "damping": "Nm*s/rad", "offset": "Nm"},
+):
     """RoboCompControlBoard::Impedance."""
 
     stiffness: rt.Double = 0.0  # [Nm/rad]
@@ -162,7 +178,11 @@ class NotPossible(rt.DeclaredError, type_id="RoboCompGenericArm::NotPossible"):
     what: rt.String = ""
 
 
-class Unreachable(rt.DeclaredError, type_id="RoboCompGenericArm::Unreachable"):
+class Unreachable(
+    rt.DeclaredError,
+    type_id="RoboCompGenericArm::Unreachable",
+    units={"distance": "m", "angle": "rad"},
+):
     """No joint angles within the limits reach the goal; the fields have the error of
     the best solution.
     """
@@ -176,7 +196,7 @@ Angles = rt.Float64Array
 RoboCompGenericArm_Flags = rt.BoolArray
 
 
-class ArmState(rt.Struct, type_id="RoboCompGenericArm::ArmState"):
+class ArmState(rt.Struct, type_id="RoboCompGenericArm::ArmState", units={"time": "s"}):
     """RoboCompGenericArm::ArmState."""
 
     time: rt.Double = 0.0  # [s]
@@ -197,7 +217,11 @@ class ArmLimits(rt.Struct, type_id="RoboCompGenericArm::ArmLimits"):
     available: RoboCompGenericArm_Flags = rt.default()
 
 
-class Row(rt.Struct, type_id="RoboCompGenericArm::Row"):
+class Row(
+    rt.Struct,
+    type_id="RoboCompGenericArm::Row",
+    units={"a": "m", "d": "m", "alpha": "rad", "offset": "rad"},
+):
     """One row of Denavit-Hartenberg parameters: Rz(q + offset) Tz(d) Tx(a) Rx(alpha), q
     the generic angle.
     """
@@ -228,7 +252,9 @@ class Chain(rt.Struct, type_id="RoboCompGenericArm::Chain"):
     tool: Angles = rt.default()
 
 
-class Pose(rt.Struct, type_id="RoboCompGenericArm::Pose"):
+class Pose(
+    rt.Struct, type_id="RoboCompGenericArm::Pose", units={"x": "m", "y": "m", "z": "m"}
+):
     """Position and rotation of the end effector in the frame of the chain's base."""
 
     x: rt.Double = 0.0  # [m]
@@ -277,6 +303,7 @@ GENERICARM = rt.Interface(
         inputs={"x": rt.Double, "y": rt.Double, "z": rt.Double},
         returns=Outcome,
         throws=(NotPossible, Unreachable),
+        units={"x": "m", "y": "m", "z": "m"},
     ),
     rt.Operation(
         "reachPose",
@@ -291,6 +318,7 @@ GENERICARM = rt.Interface(
         "glide",
         rt.Pattern.COMMAND,
         inputs={"vx": rt.Double, "vy": rt.Double, "vz": rt.Double},
+        units={"vx": "m/s", "vy": "m/s", "vz": "m/s"},
     ),
     rt.Operation(
         "setStiffness",
@@ -358,6 +386,7 @@ CONTROLBOARD = rt.Interface(
         inputs={"joints": Names, "velocity": Values, "hold": rt.Double},
         returns=RoboCompControlBoard_Flags,
         throws=(Refused, UnknownJoint, WrongMode),
+        units={"hold": "s"},
     ),
     rt.Operation(
         "setVelocity",
@@ -471,6 +500,7 @@ CONTROLBOARD = rt.Interface(
         "setPositionLimits",
         inputs={"joint": rt.String, "low": rt.Double, "high": rt.Double},
         throws=(Refused, UnknownJoint),
+        units={"low": "rad", "high": "rad"},
     ),
     rt.Operation(
         "setSpeedLimits",
@@ -486,6 +516,7 @@ CONTROLBOARD = rt.Interface(
         "setEncoder",
         inputs={"joint": rt.String, "position": rt.Double},
         throws=(Refused, UnknownJoint),
+        units={"position": "rad"},
     ),
     rt.Operation(
         "setMotorEncoder",

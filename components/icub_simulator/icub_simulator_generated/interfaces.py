@@ -41,7 +41,17 @@ class CollisionException(
     what: rt.String = ""
 
 
-class MotorState(rt.Struct, type_id="RoboCompJointMotor::MotorState"):
+class MotorState(
+    rt.Struct,
+    type_id="RoboCompJointMotor::MotorState",
+    units={
+        "pos": "rad",
+        "vel": "rad/s",
+        "p": "steps",
+        "v": "steps/s",
+        "temperature": "degC",
+    },
+):
     """The current state of a motor."""
 
     pos: rt.Float = 0.0  # [rad]
@@ -57,7 +67,18 @@ class MotorState(rt.Struct, type_id="RoboCompJointMotor::MotorState"):
 MotorStateMap = dict[rt.String, MotorState]
 
 
-class MotorParams(rt.Struct, type_id="RoboCompJointMotor::MotorParams"):
+class MotorParams(
+    rt.Struct,
+    type_id="RoboCompJointMotor::MotorParams",
+    units={
+        "minPos": "rad",
+        "maxPos": "rad",
+        "maxVelocity": "rad/s",
+        "zeroPos": "rad",
+        "stepsRange": "steps",
+        "maxDegrees": "deg",
+    },
+):
     """Configuration and limits of a motor. `maxDegrees` and `invertedSign` exist for
     compatibility only.
     """
@@ -78,7 +99,11 @@ class MotorParams(rt.Struct, type_id="RoboCompJointMotor::MotorParams"):
 MotorParamsList = list[MotorParams]
 
 
-class BusParams(rt.Struct, type_id="RoboCompJointMotor::BusParams"):
+class BusParams(
+    rt.Struct,
+    type_id="RoboCompJointMotor::BusParams",
+    units={"baudRate": "Bd", "basicPeriod": "ms"},
+):
     """The bus that the motors share."""
 
     handler: rt.String = ""
@@ -88,7 +113,11 @@ class BusParams(rt.Struct, type_id="RoboCompJointMotor::BusParams"):
     basicPeriod: rt.Int = 0  # [ms]
 
 
-class MotorGoalPosition(rt.Struct, type_id="RoboCompJointMotor::MotorGoalPosition"):
+class MotorGoalPosition(
+    rt.Struct,
+    type_id="RoboCompJointMotor::MotorGoalPosition",
+    units={"position": "rad", "maxSpeed": "rad/s"},
+):
     """A goal position; a `maxSpeed` of 0 leaves the speed to the motor."""
 
     name: rt.String = ""
@@ -99,7 +128,11 @@ class MotorGoalPosition(rt.Struct, type_id="RoboCompJointMotor::MotorGoalPositio
 MotorGoalPositionList = list[MotorGoalPosition]
 
 
-class MotorGoalVelocity(rt.Struct, type_id="RoboCompJointMotor::MotorGoalVelocity"):
+class MotorGoalVelocity(
+    rt.Struct,
+    type_id="RoboCompJointMotor::MotorGoalVelocity",
+    units={"velocity": "rad/s", "maxAcc": "rad/s^2"},
+):
     """A goal velocity."""
 
     name: rt.String = ""
@@ -167,7 +200,9 @@ Interactions = list[InteractionMode]
 Codes = rt.Int32Array
 
 
-class BoardState(rt.Struct, type_id="RoboCompControlBoard::BoardState"):
+class BoardState(
+    rt.Struct, type_id="RoboCompControlBoard::BoardState", units={"time": "s"}
+):
     """All measurements of one instant, in the order of the joints."""
 
     time: rt.Double = 0.0  # [s]
@@ -199,7 +234,17 @@ class Targets(rt.Struct, type_id="RoboCompControlBoard::Targets"):
     current: RoboCompControlBoard_Values = rt.default()
 
 
-class JointInfo(rt.Struct, type_id="RoboCompControlBoard::JointInfo"):
+class JointInfo(
+    rt.Struct,
+    type_id="RoboCompControlBoard::JointInfo",
+    units={
+        "low": "rad",
+        "high": "rad",
+        "speedLimit": "rad/s",
+        "torqueLimit": "Nm",
+        "maxCurrent": "A",
+    },
+):
     """Properties of a joint, with its current limits."""
 
     name: rt.String = ""
@@ -247,7 +292,11 @@ class Pid(rt.Struct, type_id="RoboCompControlBoard::Pid"):
     feedforward: rt.Double = 0.0
 
 
-class Impedance(rt.Struct, type_id="RoboCompControlBoard::Impedance"):
+class Impedance(
+    rt.Struct,
+    type_id="RoboCompControlBoard::Impedance",
+    units={"stiffness": "Nm/rad", "damping": "Nm*s/rad", "offset": "Nm"},
+):
     """RoboCompControlBoard::Impedance."""
 
     stiffness: rt.Double = 0.0  # [Nm/rad]
@@ -266,7 +315,11 @@ class JointFault(rt.Struct, type_id="RoboCompControlBoard::JointFault"):
     what: rt.String = ""
 
 
-class Acceleration(rt.Struct, type_id="RoboCompIMU::Acceleration"):
+class Acceleration(
+    rt.Struct,
+    type_id="RoboCompIMU::Acceleration",
+    units={"XAcc": "m/s^2", "YAcc": "m/s^2", "ZAcc": "m/s^2"},
+):
     """RoboCompIMU::Acceleration."""
 
     XAcc: rt.Float = 0.0  # [m/s^2]
@@ -274,7 +327,11 @@ class Acceleration(rt.Struct, type_id="RoboCompIMU::Acceleration"):
     ZAcc: rt.Float = 0.0  # [m/s^2]
 
 
-class Gyroscope(rt.Struct, type_id="RoboCompIMU::Gyroscope"):
+class Gyroscope(
+    rt.Struct,
+    type_id="RoboCompIMU::Gyroscope",
+    units={"XGyr": "rad/s", "YGyr": "rad/s", "ZGyr": "rad/s"},
+):
     """RoboCompIMU::Gyroscope."""
 
     XGyr: rt.Float = 0.0  # [rad/s]
@@ -290,7 +347,11 @@ class Magnetic(rt.Struct, type_id="RoboCompIMU::Magnetic"):
     ZMag: rt.Float = 0.0
 
 
-class Orientation(rt.Struct, type_id="RoboCompIMU::Orientation"):
+class Orientation(
+    rt.Struct,
+    type_id="RoboCompIMU::Orientation",
+    units={"Roll": "rad", "Pitch": "rad", "Yaw": "rad"},
+):
     """RoboCompIMU::Orientation."""
 
     Roll: rt.Float = 0.0  # [rad]
@@ -298,7 +359,7 @@ class Orientation(rt.Struct, type_id="RoboCompIMU::Orientation"):
     Yaw: rt.Float = 0.0  # [rad]
 
 
-class DataImu(rt.Struct, type_id="RoboCompIMU::DataImu"):
+class DataImu(rt.Struct, type_id="RoboCompIMU::DataImu", units={"temperature": "degC"}):
     """All measurements of one instant."""
 
     acc: Acceleration = rt.default()
@@ -316,7 +377,11 @@ class CartesianRefused(
     what: rt.String = ""
 
 
-class Unreachable(rt.DeclaredError, type_id="RoboCompCartesianController::Unreachable"):
+class Unreachable(
+    rt.DeclaredError,
+    type_id="RoboCompCartesianController::Unreachable",
+    units={"distance": "m", "angle": "rad"},
+):
     """No joint positions within the limits reach the goal; the fields have the error of
     the best solution.
     """
@@ -342,7 +407,11 @@ class MotionState(rt.Enum):
     Interrupted = 3
 
 
-class HandPlace(rt.Struct, type_id="RoboCompCartesianController::HandPlace"):
+class HandPlace(
+    rt.Struct,
+    type_id="RoboCompCartesianController::HandPlace",
+    units={"x": "m", "y": "m", "z": "m"},
+):
     """RoboCompCartesianController::HandPlace."""
 
     x: rt.Double = 0.0  # [m]
@@ -350,7 +419,9 @@ class HandPlace(rt.Struct, type_id="RoboCompCartesianController::HandPlace"):
     z: rt.Double = 0.0  # [m]
 
 
-class HandPose(rt.Struct, type_id="RoboCompCartesianController::HandPose"):
+class HandPose(
+    rt.Struct, type_id="RoboCompCartesianController::HandPose", units={"angle": "rad"}
+):
     """RoboCompCartesianController::HandPose."""
 
     place: HandPlace = rt.default()
@@ -369,7 +440,9 @@ class HandSolution(rt.Struct, type_id="RoboCompCartesianController::HandSolution
     joints: JointAngles = rt.default()
 
 
-class HandState(rt.Struct, type_id="RoboCompCartesianController::HandState"):
+class HandState(
+    rt.Struct, type_id="RoboCompCartesianController::HandState", units={"time": "s"}
+):
     """RoboCompCartesianController::HandState."""
 
     time: rt.Double = 0.0  # [s]
@@ -391,7 +464,9 @@ ByteSeq = rt.UInt8Array
 RoboCompSkin_Names = list[rt.String]
 
 
-class Limb(rt.Struct, type_id="RoboCompSkin::Limb"):
+class Limb(
+    rt.Struct, type_id="RoboCompSkin::Limb", units={"x": "m", "y": "m", "z": "m"}
+):
     """Pose of a limb's frame on the body of that name; `r00` to `r22` are the rotation,
     row by row.
     """
@@ -415,7 +490,11 @@ class Limb(rt.Struct, type_id="RoboCompSkin::Limb"):
 Limbs = list[Limb]
 
 
-class Patch(rt.Struct, type_id="RoboCompSkin::Patch"):
+class Patch(
+    rt.Struct,
+    type_id="RoboCompSkin::Patch",
+    units={"gain": "N", "floor": "counts", "saturation": "counts"},
+):
     """Taxels with electronics of one kind. Force in N is `gain` times the raw counts
     between the bounds.
     """
@@ -448,7 +527,9 @@ class Geometry(rt.Struct, type_id="RoboCompSkin::Geometry"):
     limbs: Limbs = rt.default()
 
 
-class Frame(rt.Struct, type_id="RoboCompSkin::Frame"):
+class Frame(
+    rt.Struct, type_id="RoboCompSkin::Frame", units={"time": "s", "offSkin": "N"}
+):
     """Readings of all taxels. `shearX` to `shearZ` and `raw` are empty unless the skin
     is configured to send them.
     """
@@ -466,7 +547,21 @@ class Frame(rt.Struct, type_id="RoboCompSkin::Frame"):
     offSkin: rt.Float = 0.0
 
 
-class Contact(rt.Struct, type_id="RoboCompSkin::Contact"):
+class Contact(
+    rt.Struct,
+    type_id="RoboCompSkin::Contact",
+    units={
+        "x": "m",
+        "y": "m",
+        "z": "m",
+        "force": "N",
+        "shearX": "N",
+        "shearY": "N",
+        "shearZ": "N",
+        "pressure": "N",
+        "area": "m^2",
+    },
+):
     """One touch: neighbouring active taxels."""
 
     limb: rt.Int = 0  # Index in the geometry's `limbs`.
@@ -505,7 +600,7 @@ class Contacts(rt.StructArray[Contact]):
     area = rt.Float32Column()
 
 
-class ContactList(rt.Struct, type_id="RoboCompSkin::ContactList"):
+class ContactList(rt.Struct, type_id="RoboCompSkin::ContactList", units={"time": "s"}):
     """RoboCompSkin::ContactList."""
 
     sequence: rt.Long = 0
@@ -580,7 +675,11 @@ class InnerModelManagerError(
     text: rt.String = ""
 
 
-class Colored3DPoint(rt.Struct, type_id="RoboCompInnerModelManager::Colored3DPoint"):
+class Colored3DPoint(
+    rt.Struct,
+    type_id="RoboCompInnerModelManager::Colored3DPoint",
+    units={"x": "mm", "y": "mm", "z": "mm"},
+):
     """RoboCompInnerModelManager::Colored3DPoint."""
 
     x: rt.Float = 0.0  # [mm]
@@ -603,7 +702,18 @@ class PointCloudVector(rt.StructArray[Colored3DPoint]):
     b = rt.UInt8Column()
 
 
-class Plane3D(rt.Struct, type_id="RoboCompInnerModelManager::Plane3D"):
+class Plane3D(
+    rt.Struct,
+    type_id="RoboCompInnerModelManager::Plane3D",
+    units={
+        "px": "mm",
+        "py": "mm",
+        "pz": "mm",
+        "width": "mm",
+        "height": "mm",
+        "thickness": "mm",
+    },
+):
     """A box that is thin along its normal: centre, normal, size. The texture is a file
     or a colour.
     """
@@ -620,7 +730,11 @@ class Plane3D(rt.Struct, type_id="RoboCompInnerModelManager::Plane3D"):
     texture: rt.String = ""
 
 
-class coord3D(rt.Struct, type_id="RoboCompInnerModelManager::coord3D"):
+class coord3D(
+    rt.Struct,
+    type_id="RoboCompInnerModelManager::coord3D",
+    units={"x": "mm", "y": "mm", "z": "mm"},
+):
     """RoboCompInnerModelManager::coord3D."""
 
     x: rt.Float = 0.0  # [mm]
@@ -628,7 +742,11 @@ class coord3D(rt.Struct, type_id="RoboCompInnerModelManager::coord3D"):
     z: rt.Float = 0.0  # [mm]
 
 
-class Pose3D(rt.Struct, type_id="RoboCompInnerModelManager::Pose3D"):
+class Pose3D(
+    rt.Struct,
+    type_id="RoboCompInnerModelManager::Pose3D",
+    units={"x": "mm", "y": "mm", "z": "mm", "rx": "rad", "ry": "rad", "rz": "rad"},
+):
     """RoboCompInnerModelManager::Pose3D."""
 
     x: rt.Float = 0.0  # [mm]
@@ -639,7 +757,11 @@ class Pose3D(rt.Struct, type_id="RoboCompInnerModelManager::Pose3D"):
     rz: rt.Float = 0.0  # [rad]
 
 
-class jointType(rt.Struct, type_id="RoboCompInnerModelManager::jointType"):
+class jointType(
+    rt.Struct,
+    type_id="RoboCompInnerModelManager::jointType",
+    units={"min": "rad", "max": "rad"},
+):
     """A hinge about `axis` with its limits. A `port` other than 0 also serves it as a
     JointMotor.
     """
@@ -688,7 +810,7 @@ class RoboCompSimulation_Refused(
     what: rt.String = ""
 
 
-class State(rt.Struct, type_id="RoboCompSimulation::State"):
+class State(rt.Struct, type_id="RoboCompSimulation::State", units={"time": "s"}):
     """RoboCompSimulation::State."""
 
     time: rt.Double = 0.0  # [s] Simulated time since the start.
@@ -707,7 +829,11 @@ RoboCompSimulation_Names = list[rt.String]
 RoboCompSimulation_Values = rt.Float64Array
 
 
-class Pose(rt.Struct, type_id="RoboCompSimulation::Pose"):
+class Pose(
+    rt.Struct,
+    type_id="RoboCompSimulation::Pose",
+    units={"x": "mm", "y": "mm", "z": "mm", "rx": "rad", "ry": "rad", "rz": "rad"},
+):
     """RoboCompSimulation::Pose."""
 
     x: rt.Double = 0.0  # [mm]
@@ -741,7 +867,7 @@ class Model(rt.Struct, type_id="RoboCompSimulation::Model"):
     data: Bytes = rt.default()
 
 
-class Sight(rt.Struct, type_id="RoboCompSimulation::Sight"):
+class Sight(rt.Struct, type_id="RoboCompSimulation::Sight", units={"time": "s"}):
     """The visible state at one instant, in MuJoCo's conventions: m, z up."""
 
     time: rt.Double = 0.0  # [s]
@@ -756,7 +882,7 @@ class Sight(rt.Struct, type_id="RoboCompSimulation::Sight"):
     contacts: RoboCompSimulation_Values = rt.default()
 
 
-class Tick(rt.Struct, type_id="RoboCompClock::Tick"):
+class Tick(rt.Struct, type_id="RoboCompClock::Tick", units={"time": "ns"}):
     """RoboCompClock::Tick."""
 
     time: rt.Long = 0  # [ns] Simulated time: 0 at the start and after a reset.
@@ -904,6 +1030,7 @@ CONTROLBOARD = rt.Interface(
         },
         returns=Flags,
         throws=(RoboCompControlBoard_Refused, UnknownJoint, WrongMode),
+        units={"hold": "s"},
     ),
     rt.Operation(
         "setVelocity",
@@ -1037,6 +1164,7 @@ CONTROLBOARD = rt.Interface(
         "setPositionLimits",
         inputs={"joint": rt.String, "low": rt.Double, "high": rt.Double},
         throws=(RoboCompControlBoard_Refused, UnknownJoint),
+        units={"low": "rad", "high": "rad"},
     ),
     rt.Operation(
         "setSpeedLimits",
@@ -1058,6 +1186,7 @@ CONTROLBOARD = rt.Interface(
         "setEncoder",
         inputs={"joint": rt.String, "position": rt.Double},
         throws=(RoboCompControlBoard_Refused, UnknownJoint),
+        units={"position": "rad"},
     ),
     rt.Operation(
         "setMotorEncoder",
@@ -1125,12 +1254,14 @@ CARTESIANCONTROLLER = rt.Interface(
         inputs={"pose": HandPose, "seconds": rt.Double},
         returns=HandSolution,
         throws=(Unreachable, CartesianRefused),
+        units={"seconds": "s"},
     ),
     rt.Operation(
         "goToPosition",
         inputs={"place": HandPlace, "seconds": rt.Double},
         returns=HandSolution,
         throws=(Unreachable, CartesianRefused),
+        units={"seconds": "s"},
     ),
     rt.Operation(
         "getDesired", returns=HandSolution, throws=(CartesianRefused,), idempotent=True
@@ -1152,18 +1283,23 @@ CARTESIANCONTROLLER = rt.Interface(
         idempotent=True,
     ),
     rt.Operation(
-        "setTrajTime", inputs={"seconds": rt.Double}, throws=(CartesianRefused,)
+        "setTrajTime",
+        inputs={"seconds": rt.Double},
+        throws=(CartesianRefused,),
+        units={"seconds": "s"},
     ),
     rt.Operation("getTrajTime", returns=rt.Double, idempotent=True),
     rt.Operation(
         "setInTargetTol",
         inputs={"distance": rt.Double, "angle": rt.Double},
         throws=(CartesianRefused,),
+        units={"distance": "m", "angle": "rad"},
     ),
     rt.Operation(
         "getInTargetTol",
         outputs={"distance": rt.Double, "angle": rt.Double},
         idempotent=True,
+        units={"distance": "m", "angle": "rad"},
     ),
     rt.Operation("setTrackingMode", rt.Pattern.UNMARKED, inputs={"on": rt.Bool}),
     rt.Operation("getTrackingMode", returns=rt.Bool, idempotent=True),
@@ -1191,6 +1327,7 @@ SKIN = rt.Interface(
         "calibrate",
         inputs={"seconds": rt.Float},
         throws=(RoboCompSkin_HardwareFailedException,),
+        units={"seconds": "s"},
     ),
 )
 
@@ -1378,6 +1515,7 @@ SIMULATION = rt.Interface(
         inputs={"fork": rt.Int, "seconds": rt.Double},
         returns=rt.Double,
         throws=(RoboCompSimulation_Refused,),
+        units={"seconds": "s"},
     ),
     rt.Operation(
         "drive",
@@ -1389,6 +1527,7 @@ SIMULATION = rt.Interface(
             "rot": rt.Double,
         },
         throws=(RoboCompSimulation_Refused,),
+        units={"side": "mm/s", "adv": "mm/s", "rot": "rad/s"},
     ),
     rt.Operation(
         "move",

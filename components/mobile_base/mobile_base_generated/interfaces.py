@@ -8,7 +8,7 @@ Laser.idsl.
 from robocomp_dsl.runtime import types as rt
 
 
-class Tick(rt.Struct, type_id="RoboCompClock::Tick"):
+class Tick(rt.Struct, type_id="RoboCompClock::Tick", units={"time": "ns"}):
     """RoboCompClock::Tick."""
 
     time: rt.Long = 0  # [ns] Simulated time: 0 at the start and after a reset.
@@ -27,7 +27,21 @@ class HardwareFailedException(
     what: rt.String = ""
 
 
-class TBaseState(rt.Struct, type_id="RoboCompGenericBase::TBaseState"):
+class TBaseState(
+    rt.Struct,
+    type_id="RoboCompGenericBase::TBaseState",
+    units={
+        "x": "mm",
+        "correctedX": "mm",
+        "z": "mm",
+        "correctedZ": "mm",
+        "alpha": "rad",
+        "correctedAlpha": "rad",
+        "advVx": "mm/s",
+        "advVz": "mm/s",
+        "rotV": "rad/s",
+    },
+):
     """Odometry of the base. The corrected pose is compensated for known drift; in a
     simulator it is the true pose.
     """
@@ -44,7 +58,16 @@ class TBaseState(rt.Struct, type_id="RoboCompGenericBase::TBaseState"):
     isMoving: rt.Bool = False
 
 
-class TMechParams(rt.Struct, type_id="RoboCompDifferentialRobot::TMechParams"):
+class TMechParams(
+    rt.Struct,
+    type_id="RoboCompDifferentialRobot::TMechParams",
+    units={
+        "wheelRadius": "mm",
+        "axisLength": "mm",
+        "maxVelAdv": "mm/s",
+        "maxVelRot": "rad/s",
+    },
+):
     """Dimensions and speed limits of the base."""
 
     wheelRadius: rt.Int = 0  # [mm]
@@ -61,7 +84,20 @@ class TMechParams(rt.Struct, type_id="RoboCompDifferentialRobot::TMechParams"):
 shortVector = rt.Int32Array
 
 
-class LaserConfData(rt.Struct, type_id="RoboCompLaser::LaserConfData"):
+class LaserConfData(
+    rt.Struct,
+    type_id="RoboCompLaser::LaserConfData",
+    units={
+        "maxDegrees": "deg",
+        "maxRange": "mm",
+        "minRange": "mm",
+        "iniRange": "deg",
+        "endRange": "deg",
+        "sampleRate": "ms",
+        "angleRes": "deg",
+        "angleIni": "deg",
+    },
+):
     """Configuration of the laser. A `staticConf` of 0 means that it may change while
     running.
     """
@@ -81,7 +117,9 @@ class LaserConfData(rt.Struct, type_id="RoboCompLaser::LaserConfData"):
     angleIni: rt.Float = 0.0  # [deg]
 
 
-class TData(rt.Struct, type_id="RoboCompLaser::TData"):
+class TData(
+    rt.Struct, type_id="RoboCompLaser::TData", units={"angle": "rad", "dist": "mm"}
+):
     """One ray. A ray without a hit has the maximum range."""
 
     angle: rt.Float = 0.0  # [rad]
@@ -105,11 +143,13 @@ DIFFERENTIALROBOT = rt.Interface(
         "getBasePose",
         outputs={"x": rt.Int, "z": rt.Int, "alpha": rt.Float},
         throws=(HardwareFailedException,),
+        units={"x": "mm", "z": "mm", "alpha": "rad"},
     ),
     rt.Operation(
         "setSpeedBase",
         inputs={"adv": rt.Float, "rot": rt.Float},
         throws=(HardwareFailedException,),
+        units={"adv": "mm/s", "rot": "rad/s"},
     ),
     rt.Operation("stopBase", throws=(HardwareFailedException,)),
     rt.Operation("resetOdometer", throws=(HardwareFailedException,)),
@@ -120,11 +160,13 @@ DIFFERENTIALROBOT = rt.Interface(
         "setOdometerPose",
         inputs={"x": rt.Int, "z": rt.Int, "alpha": rt.Float},
         throws=(HardwareFailedException,),
+        units={"x": "mm", "z": "mm", "alpha": "rad"},
     ),
     rt.Operation(
         "correctOdometer",
         inputs={"x": rt.Int, "z": rt.Int, "alpha": rt.Float},
         throws=(HardwareFailedException,),
+        units={"x": "mm", "z": "mm", "alpha": "rad"},
     ),
 )
 
@@ -145,6 +187,7 @@ DIFFERENTIALROBOTPUB = rt.Interface(
         "pushBaseState",
         rt.Pattern.UNMARKED,
         inputs={"state": TBaseState, "time": rt.Double},
+        units={"time": "s"},
     ),
 )
 

@@ -15,7 +15,21 @@ class HardwareFailedException(
     what: rt.String = ""
 
 
-class TBaseState(rt.Struct, type_id="RoboCompGenericBase::TBaseState"):
+class TBaseState(
+    rt.Struct,
+    type_id="RoboCompGenericBase::TBaseState",
+    units={
+        "x": "mm",
+        "correctedX": "mm",
+        "z": "mm",
+        "correctedZ": "mm",
+        "alpha": "rad",
+        "correctedAlpha": "rad",
+        "advVx": "mm/s",
+        "advVz": "mm/s",
+        "rotV": "rad/s",
+    },
+):
     """Odometry of the base. The corrected pose is compensated for known drift; in a
     simulator it is the true pose.
     """
@@ -32,7 +46,11 @@ class TBaseState(rt.Struct, type_id="RoboCompGenericBase::TBaseState"):
     isMoving: rt.Bool = False
 
 
-class PathSummary(rt.Struct, type_id="RoboCompPathLog::PathSummary"):
+class PathSummary(
+    rt.Struct,
+    type_id="RoboCompPathLog::PathSummary",
+    units={"time": "s", "distance": "mm"},
+):
     """`runs` counts the restarts of the base; `time` is that of the last received
     state.
     """
@@ -55,5 +73,6 @@ DIFFERENTIALROBOTPUB = rt.Interface(
         "pushBaseState",
         rt.Pattern.UNMARKED,
         inputs={"state": TBaseState, "time": rt.Double},
+        units={"time": "s"},
     ),
 )

@@ -14,7 +14,11 @@ class RoboCompGenericArm_NotPossible(
     what: rt.String = ""
 
 
-class Unreachable(rt.DeclaredError, type_id="RoboCompGenericArm::Unreachable"):
+class Unreachable(
+    rt.DeclaredError,
+    type_id="RoboCompGenericArm::Unreachable",
+    units={"distance": "m", "angle": "rad"},
+):
     """No joint angles within the limits reach the goal; the fields have the error of
     the best solution.
     """
@@ -28,7 +32,7 @@ RoboCompGenericArm_Angles = rt.Float64Array
 Flags = rt.BoolArray
 
 
-class ArmState(rt.Struct, type_id="RoboCompGenericArm::ArmState"):
+class ArmState(rt.Struct, type_id="RoboCompGenericArm::ArmState", units={"time": "s"}):
     """RoboCompGenericArm::ArmState."""
 
     time: rt.Double = 0.0  # [s]
@@ -48,7 +52,11 @@ class ArmLimits(rt.Struct, type_id="RoboCompGenericArm::ArmLimits"):
     available: Flags = rt.default()  # Whether the robot has this joint.
 
 
-class Row(rt.Struct, type_id="RoboCompGenericArm::Row"):
+class Row(
+    rt.Struct,
+    type_id="RoboCompGenericArm::Row",
+    units={"a": "m", "d": "m", "alpha": "rad", "offset": "rad"},
+):
     """One row of Denavit-Hartenberg parameters: Rz(q + offset) Tz(d) Tx(a) Rx(alpha), q
     the generic angle.
     """
@@ -79,7 +87,9 @@ class Chain(rt.Struct, type_id="RoboCompGenericArm::Chain"):
     tool: RoboCompGenericArm_Angles = rt.default()
 
 
-class Pose(rt.Struct, type_id="RoboCompGenericArm::Pose"):
+class Pose(
+    rt.Struct, type_id="RoboCompGenericArm::Pose", units={"x": "m", "y": "m", "z": "m"}
+):
     """Position and rotation of the end effector in the frame of the chain's base."""
 
     x: rt.Double = 0.0  # [m]
@@ -126,7 +136,11 @@ class ReflexState(rt.Enum):
 RoboCompReflex_Angles = rt.Float64Array
 
 
-class Field(rt.Struct, type_id="RoboCompReflex::Field"):
+class Field(
+    rt.Struct,
+    type_id="RoboCompReflex::Field",
+    units={"x": "m", "y": "m", "z": "m", "radius": "m"},
+):
     """A round field on a limb's skin: centre in the limb's frame, and the motion at
     full stimulus in rad.
     """
@@ -143,7 +157,11 @@ class Field(rt.Struct, type_id="RoboCompReflex::Field"):
 Fields = list[Field]
 
 
-class Event(rt.Struct, type_id="RoboCompReflex::Event"):
+class Event(
+    rt.Struct,
+    type_id="RoboCompReflex::Event",
+    units={"time": "s", "x": "m", "y": "m", "z": "m", "distance": "m", "force": "N"},
+):
     """The response of one field to a touch."""
 
     time: rt.Double = 0.0  # [s]
@@ -181,7 +199,9 @@ class LimitCause(rt.Enum):
     Obstacle = 3
 
 
-class Limitation(rt.Struct, type_id="RoboCompReflex::Limitation"):
+class Limitation(
+    rt.Struct, type_id="RoboCompReflex::Limitation", units={"time": "s", "pause": "s"}
+):
     """A withdrawal that is smaller than its touch requires, or an obstacle that
     prevents the return.
     """
@@ -207,7 +227,9 @@ ByteSeq = rt.UInt8Array
 Names = list[rt.String]
 
 
-class Limb(rt.Struct, type_id="RoboCompSkin::Limb"):
+class Limb(
+    rt.Struct, type_id="RoboCompSkin::Limb", units={"x": "m", "y": "m", "z": "m"}
+):
     """Pose of a limb's frame on the body of that name; `r00` to `r22` are the rotation,
     row by row.
     """
@@ -231,7 +253,11 @@ class Limb(rt.Struct, type_id="RoboCompSkin::Limb"):
 Limbs = list[Limb]
 
 
-class Patch(rt.Struct, type_id="RoboCompSkin::Patch"):
+class Patch(
+    rt.Struct,
+    type_id="RoboCompSkin::Patch",
+    units={"gain": "N", "floor": "counts", "saturation": "counts"},
+):
     """Taxels with electronics of one kind. Force in N is `gain` times the raw counts
     between the bounds.
     """
@@ -264,7 +290,9 @@ class Geometry(rt.Struct, type_id="RoboCompSkin::Geometry"):
     limbs: Limbs = rt.default()
 
 
-class Frame(rt.Struct, type_id="RoboCompSkin::Frame"):
+class Frame(
+    rt.Struct, type_id="RoboCompSkin::Frame", units={"time": "s", "offSkin": "N"}
+):
     """Readings of all taxels. `shearX` to `shearZ` and `raw` are empty unless the skin
     is configured to send them.
     """
@@ -282,7 +310,21 @@ class Frame(rt.Struct, type_id="RoboCompSkin::Frame"):
     offSkin: rt.Float = 0.0
 
 
-class Contact(rt.Struct, type_id="RoboCompSkin::Contact"):
+class Contact(
+    rt.Struct,
+    type_id="RoboCompSkin::Contact",
+    units={
+        "x": "m",
+        "y": "m",
+        "z": "m",
+        "force": "N",
+        "shearX": "N",
+        "shearY": "N",
+        "shearZ": "N",
+        "pressure": "N",
+        "area": "m^2",
+    },
+):
     """One touch: neighbouring active taxels."""
 
     limb: rt.Int = 0  # Index in the geometry's `limbs`.
@@ -321,7 +363,7 @@ class Contacts(rt.StructArray[Contact]):
     area = rt.Float32Column()
 
 
-class ContactList(rt.Struct, type_id="RoboCompSkin::ContactList"):
+class ContactList(rt.Struct, type_id="RoboCompSkin::ContactList", units={"time": "s"}):
     """RoboCompSkin::ContactList."""
 
     sequence: rt.Long = 0
@@ -371,6 +413,7 @@ GENERICARM = rt.Interface(
         inputs={"x": rt.Double, "y": rt.Double, "z": rt.Double},
         returns=Outcome,
         throws=(RoboCompGenericArm_NotPossible, Unreachable),
+        units={"x": "m", "y": "m", "z": "m"},
     ),
     rt.Operation(
         "reachPose",
@@ -391,6 +434,7 @@ GENERICARM = rt.Interface(
         "glide",
         rt.Pattern.COMMAND,
         inputs={"vx": rt.Double, "vy": rt.Double, "vz": rt.Double},
+        units={"vx": "m/s", "vy": "m/s", "vz": "m/s"},
     ),
     rt.Operation(
         "setStiffness",
@@ -525,7 +569,10 @@ SKIN = rt.Interface(
         idempotent=True,
     ),
     rt.Operation(
-        "calibrate", inputs={"seconds": rt.Float}, throws=(HardwareFailedException,)
+        "calibrate",
+        inputs={"seconds": rt.Float},
+        throws=(HardwareFailedException,),
+        units={"seconds": "s"},
     ),
 )
 
@@ -575,6 +622,7 @@ REFLEX = rt.Interface(
         "setForces",
         inputs={"threshold": rt.Double, "full": rt.Double},
         throws=(RoboCompReflex_NotPossible,),
+        units={"threshold": "N", "full": "N"},
     ),
     rt.Operation("enable", rt.Pattern.UNMARKED, inputs={"on": rt.Bool}),
 )

@@ -12,7 +12,7 @@ syn match bdslOperator contained /->\|=>\|::\|[=:+*\/.-]/
 syn match bdslFunction contained /\h\w*\ze\s*(/
 syn match bdslText contained /\h\w*\ze\%(\s*(\)\@!\>/
 syn match bdslNumber contained /\%(\<0[xX]\x\+\|[-+]\=\%(\<\d\+\.\=\d*\|\.\d\+\)\%([eE][-+]\=\d\+\)\=\)\>\=/
-syn match bdslType contained /\<\%(double\|string\|float\|short\|bool\|byte\|long\|int\)\>\ze\%(\s\+\h\|\s*[[;{]\|\s*$\)/
+syn match bdslType contained /\<\%(unsigned short\|unsigned long\|unsigned int\|double\|string\|float\|short\|bool\|byte\|long\|int\)\>\ze\%(\s\+\h\|\s*[[;{]\|\s*$\)/
 syn match bdslTruth contained /\<\%(counter\|false\|true\|now\)\>/
 syn match bdslUnit contained /\%(\<\d\+\.\=\d*\s*\)\@<=\<\%(min\|ms\|Hz\|s\|h\)\>/
 syn match bdslUnit contained /\[[^][]*\]/

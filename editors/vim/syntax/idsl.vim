@@ -12,7 +12,7 @@ syn match idslOperator contained /->\|=>\|::\|[=:<>+.-]/
 syn match idslFunction contained /\h\w*\ze\s*(/
 syn match idslText contained /\h\w*\ze\%(\s*(\)\@!\>/
 syn match idslNumber contained /\%(\<0[xX]\x\+\|[-+]\=\%(\<\d\+\.\=\d*\|\.\d\+\)\%([eE][-+]\=\d\+\)\=\)\>\=/
-syn match idslType contained /\<\%(double\|string\|float\|short\|bool\|byte\|long\|void\|int\)\>\ze\%(\s\+\h\|\s*[<>,)]\|\s*$\)/
+syn match idslType contained /\<\%(unsigned short\|unsigned long\|unsigned int\|double\|string\|float\|short\|bool\|byte\|long\|void\|int\)\>\ze\%(\s\+\h\|\s*[<>,)]\|\s*$\)/
 syn match idslTruth contained /\<\%(false\|true\)\>/
 syn match idslUnit contained /\[[^][]*\]/
 syn match idslNumber contained /\[[0-9: \t]*\]/
@@ -24,6 +24,7 @@ syn match idsl_plain_inner contained /\.\@<!\<idempotent\>\.\@!\%(\s*\%(\[\|\h\|
 syn match idsl_plain_inner contained /\.\@<!\<out\>\.\@!\%(\s*\%(\[\|\h\|\/[*\/]\|$\)\)\@=/
 syn match idsl_plain_inner contained /\.\@<!\<sequence\>\.\@!\%(\s*\%(<\|\/[*\/]\|$\)\)\@=/
 syn match idsl_plain_inner contained /\.\@<!\<throws\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match idsl_plain_inner contained /\.\@<!\<unsigned\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 hi def link idsl_plain_inner idslModifier
 hi def link idsl_plain_value idslValue
 hi def link idsl_plain_name idslName
@@ -34,6 +35,7 @@ syn match idsl_dictionary_inner contained /\.\@<!\<idempotent\>\.\@!\%(\s*\%(\[\
 syn match idsl_dictionary_inner contained /\.\@<!\<out\>\.\@!\%(\s*\%(\[\|\h\|\/[*\/]\|$\)\)\@=/
 syn match idsl_dictionary_inner contained /\.\@<!\<sequence\>\.\@!\%(\s*\%(<\|\/[*\/]\|$\)\)\@=/
 syn match idsl_dictionary_inner contained /\.\@<!\<throws\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match idsl_dictionary_inner contained /\.\@<!\<unsigned\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 hi def link idsl_dictionary_inner idslModifier
 hi def link idsl_dictionary_value idslValue
 hi def link idsl_dictionary_name idslName
@@ -48,6 +50,7 @@ syn region idsl_enum matchgroup=idslDeclaration start=/\<enum\>\%(\s*\%(\h\|\/[*
 syn match idsl_exception_inner contained /\.\@<!\<dictionary\>\.\@!\%(\s*\%(<\|\/[*\/]\|$\)\)\@=/
 syn match idsl_exception_inner contained /\.\@<!\<extends\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 syn match idsl_exception_inner contained /\.\@<!\<sequence\>\.\@!\%(\s*\%(<\|\/[*\/]\|$\)\)\@=/
+syn match idsl_exception_inner contained /\.\@<!\<unsigned\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 syn match idsl_exception_name contained /\%(\<exception\s\+\)\@<=\h\w*/
 hi def link idsl_exception_inner idslModifier
 hi def link idsl_exception_value idslValue
@@ -59,6 +62,7 @@ syn match idsl_idempotent_inner contained /\.\@<!\<idempotent\>\.\@!\%(\s*\%(\[\
 syn match idsl_idempotent_inner contained /\.\@<!\<out\>\.\@!\%(\s*\%(\[\|\h\|\/[*\/]\|$\)\)\@=/
 syn match idsl_idempotent_inner contained /\.\@<!\<sequence\>\.\@!\%(\s*\%(<\|\/[*\/]\|$\)\)\@=/
 syn match idsl_idempotent_inner contained /\.\@<!\<throws\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match idsl_idempotent_inner contained /\.\@<!\<unsigned\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 hi def link idsl_idempotent_inner idslModifier
 hi def link idsl_idempotent_value idslValue
 hi def link idsl_idempotent_name idslName
@@ -72,6 +76,7 @@ syn region idsl_import matchgroup=idslKeyword start=/\<import\>\%(\s*\%("\|\/[*\
 syn match idsl_interface_inner contained /\.\@<!\<dictionary\>\.\@!\%(\s*\%(<\|\/[*\/]\|$\)\)\@=/
 syn match idsl_interface_inner contained /\.\@<!\<extends\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 syn match idsl_interface_inner contained /\.\@<!\<sequence\>\.\@!\%(\s*\%(<\|\/[*\/]\|$\)\)\@=/
+syn match idsl_interface_inner contained /\.\@<!\<unsigned\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 syn match idsl_interface_name contained /\%(\<interface\s\+\)\@<=\h\w*/
 hi def link idsl_interface_inner idslModifier
 hi def link idsl_interface_value idslValue
@@ -89,6 +94,7 @@ syn match idsl_out_inner contained /\.\@<!\<idempotent\>\.\@!\%(\s*\%(\[\|\h\|\/
 syn match idsl_out_inner contained /\.\@<!\<out\>\.\@!\%(\s*\%(\[\|\h\|\/[*\/]\|$\)\)\@=/
 syn match idsl_out_inner contained /\.\@<!\<sequence\>\.\@!\%(\s*\%(<\|\/[*\/]\|$\)\)\@=/
 syn match idsl_out_inner contained /\.\@<!\<throws\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match idsl_out_inner contained /\.\@<!\<unsigned\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 hi def link idsl_out_inner idslModifier
 hi def link idsl_out_value idslValue
 hi def link idsl_out_name idslName
@@ -99,6 +105,7 @@ syn match idsl_sequence_inner contained /\.\@<!\<idempotent\>\.\@!\%(\s*\%(\[\|\
 syn match idsl_sequence_inner contained /\.\@<!\<out\>\.\@!\%(\s*\%(\[\|\h\|\/[*\/]\|$\)\)\@=/
 syn match idsl_sequence_inner contained /\.\@<!\<sequence\>\.\@!\%(\s*\%(<\|\/[*\/]\|$\)\)\@=/
 syn match idsl_sequence_inner contained /\.\@<!\<throws\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match idsl_sequence_inner contained /\.\@<!\<unsigned\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 hi def link idsl_sequence_inner idslModifier
 hi def link idsl_sequence_value idslValue
 hi def link idsl_sequence_name idslName
@@ -107,12 +114,24 @@ syn region idsl_sequence matchgroup=idslKeyword start=/\<sequence\>\%(\s*\%(<\|\
 syn match idsl_struct_inner contained /\.\@<!\<dictionary\>\.\@!\%(\s*\%(<\|\/[*\/]\|$\)\)\@=/
 syn match idsl_struct_inner contained /\.\@<!\<extends\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 syn match idsl_struct_inner contained /\.\@<!\<sequence\>\.\@!\%(\s*\%(<\|\/[*\/]\|$\)\)\@=/
+syn match idsl_struct_inner contained /\.\@<!\<unsigned\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 syn match idsl_struct_name contained /\%(\<struct\s\+\)\@<=\h\w*/
 hi def link idsl_struct_inner idslModifier
 hi def link idsl_struct_value idslValue
 hi def link idsl_struct_name idslName
 hi def link idsl_struct_field idslField
 syn region idsl_struct matchgroup=idslDeclaration start=/\<struct\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@idslAny,idslComment,idslDoc,idsl_struct_inner,idsl_struct_value,idsl_struct_name,idsl_struct_field
+syn match idsl_unsigned_inner contained /\.\@<!\<dictionary\>\.\@!\%(\s*\%(<\|\/[*\/]\|$\)\)\@=/
+syn match idsl_unsigned_inner contained /\.\@<!\<idempotent\>\.\@!\%(\s*\%(\[\|\h\|\/[*\/]\|$\)\)\@=/
+syn match idsl_unsigned_inner contained /\.\@<!\<out\>\.\@!\%(\s*\%(\[\|\h\|\/[*\/]\|$\)\)\@=/
+syn match idsl_unsigned_inner contained /\.\@<!\<sequence\>\.\@!\%(\s*\%(<\|\/[*\/]\|$\)\)\@=/
+syn match idsl_unsigned_inner contained /\.\@<!\<throws\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match idsl_unsigned_inner contained /\.\@<!\<unsigned\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+hi def link idsl_unsigned_inner idslModifier
+hi def link idsl_unsigned_value idslValue
+hi def link idsl_unsigned_name idslName
+hi def link idsl_unsigned_field idslField
+syn region idsl_unsigned matchgroup=idslKeyword start=/\<unsigned\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@idslAny,idslComment,idslDoc,idsl_unsigned_inner,idsl_unsigned_value,idsl_unsigned_name,idsl_unsigned_field
 syn match idslComment ,//.*,
 syn match idslComment /#.*/
 syn match idslDoc ,///[/<]\@!.*,

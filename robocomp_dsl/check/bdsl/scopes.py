@@ -13,8 +13,7 @@ from robocomp_dsl.check.bdsl.items import joined_item_type, length_of
 from robocomp_dsl.check.codes import bridge as codes
 from robocomp_dsl.check.codes import bridge_values as value_codes
 from robocomp_dsl.check.literals import join_names
-from robocomp_dsl.check.workspace.imports import replace_fix
-from robocomp_dsl.diagnostics import nearest
+from robocomp_dsl.check.names.unknown_names import report_unknown_name
 from robocomp_dsl.model.bridge_ports import TIME, BridgeInput
 from robocomp_dsl.model.bridge_values import (
     BridgeCall,
@@ -182,28 +181,26 @@ def reject_name(name: Name, known: list[str], context: BridgeContext, noun: str 
     """Report an unknown name; `noun` is what it should be. Raises `FaultyExpression`."""
     if not context.is_complete:
         raise FaultyExpression
-    guess = nearest(name.text, known)
-    context.report.add(
+    report_unknown_name(
+        context.report,
         codes.UNKNOWN_BRIDGE_NAME,
-        name.span,
+        name,
         f"the bridge declares no {noun}`{name.text}`",
-        label=f"did you mean `{guess}`?" if guess else "",
-        help="" if guess else f"known here: {join_names(known) or 'nothing'}",
-        fix=replace_fix(name.span, guess) if guess else None,
+        known,
+        f"known here: {join_names(known) or 'nothing'}",
     )
     raise FaultyExpression
 
 
 def reject_field(name: Name, owner: str, known: list[str], context: BridgeContext) -> NoReturn:
     """Report an unknown field or parameter of `owner`. Raises `FaultyExpression`."""
-    guess = nearest(name.text, known)
-    context.report.add(
+    report_unknown_name(
+        context.report,
         value_codes.UNKNOWN_BRIDGE_FIELD,
-        name.span,
+        name,
         f"{owner} has no `{name.text}`",
-        label=f"did you mean `{guess}`?" if guess else "",
-        help="" if guess else f"it has {join_names(known) or 'none'}",
-        fix=replace_fix(name.span, guess) if guess else None,
+        known,
+        f"it has {join_names(known) or 'none'}",
     )
     raise FaultyExpression
 

@@ -10,6 +10,7 @@ from functools import cache
 from robocomp_dsl.check.bdsl.context import BridgeContext, FaultyExpression
 from robocomp_dsl.check.bdsl.type_words import a_type
 from robocomp_dsl.check.codes import bridge_values as codes
+from robocomp_dsl.check.idsl.units import WRITTEN_OUT
 from robocomp_dsl.diagnostics import Edit, Fix, Report, nearest
 from robocomp_dsl.model import units
 from robocomp_dsl.model.bridge_ports import TIME, ItemGroup, ItemsType, ValueType
@@ -67,18 +68,6 @@ def declared_unit(unit: Unit | None, type_: Type, report: Report) -> str:
     return valid_unit(unit, report)
 
 
-_WRITTEN_OUT = {
-    **dict.fromkeys(("degree", "degrees", "grad"), "deg"),
-    **dict.fromkeys(("radian", "radians"), "rad"),
-    **dict.fromkeys(("meter", "meters", "metre", "metres"), "m"),
-    **dict.fromkeys(("second", "seconds", "sec", "secs"), "s"),
-    **dict.fromkeys(("millimeter", "millimeters", "millimetres"), "mm"),
-    **dict.fromkeys(("millisecond", "milliseconds", "msec"), "ms"),
-    **dict.fromkeys(("newton", "newtons"), "N"),
-}
-"""Symbols of units whose names people write out."""
-
-
 def valid_unit(unit: Unit, report: Report) -> str:
     """The text of a unit; an invalid one is reported, and empty."""
     text = unit.text.strip()
@@ -90,7 +79,7 @@ def valid_unit(unit: Unit, report: Report) -> str:
         report.add(codes.INVALID_UNIT, unit.span, f"invalid unit: {error}")
         return ""
     for word in units.unknown_words(text):
-        symbol = _WRITTEN_OUT.get(word.lower())
+        symbol = WRITTEN_OUT.get(word.lower())
         guess = symbol or nearest(word, units.known_units())
         is_case = guess is not None and (symbol or guess.lower() == word.lower())
         fixed = f"[{text.replace(word, guess)}]" if guess and is_case else ""

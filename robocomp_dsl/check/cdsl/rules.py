@@ -24,13 +24,15 @@ def check_cdsl_rules(resolved: ResolvedComponent, report: Report) -> None:
 
 
 def _check_topic(written: ast.Port, port: Port, report: Report) -> None:
-    """Report queries and commands in a topic: publishers get no reply."""
+    """Report queries and commands in a topic: publishers get no reply, so it has no queries."""
     queries = [o for o in port.interface.operations if port.pattern(o) is Pattern.QUERY]
     if queries:
         report.add(
             type_codes.TOPIC_WITH_OUTPUT,
             written.interface.span,
-            f"`{port.interface.name}` cannot be a topic: {_operations(queries)} {_gives(queries)}",
+            f"{_operations(queries)} of `{port.interface.name}` {_gives(queries)}: not part of the"
+            " topic",
+            label="" if port.operations else "nothing of it can be published",
             notes=[
                 Note(operation.span, f"`{operation.name}` is declared here")
                 for operation in queries

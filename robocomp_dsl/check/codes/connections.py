@@ -1,4 +1,4 @@
-"""RC55x: middlewares, quality of service, external programs, monitors and arbitration."""
+"""RC527, RC55x: middlewares, quality of service, external programs, monitors and arbitration."""
 
 from __future__ import annotations
 
@@ -185,5 +185,23 @@ Wrong: both conditions hold if `seen` is set.
 Right:
 
     arbitrate gaze.Target { from face.Target when seen; from scan.Target when !seen; };
+""",
+)
+
+INTERFACE_VERSIONS = Code(
+    "RC527",
+    Severity.ERROR,
+    "two versions of an interface in a connection",
+    """\
+The two components import different files, in which an operation that the first one uses differs:
+in a parameter, a field, a type, a unit, its pattern, or it is missing. A call would raise
+`InterfaceMismatch`, and messages of a topic would not arrive. Operations that only the second
+component has do no harm.
+
+Wrong, where `arm/Gripper.idsl` has another `close` than `hand/Gripper.idsl`:
+
+    connect arm.Gripper -> hand.Gripper;
+
+Right: both components import one `Gripper.idsl`, and are generated again.
 """,
 )

@@ -1,4 +1,4 @@
-"""RC80x and RC784: the tags, attributes and values of InnerModel files."""
+"""RC80x, RC784 and RC785: the tags, attributes and values of InnerModel files."""
 
 from __future__ import annotations
 
@@ -147,6 +147,25 @@ Right:
 """,
 )
 
+MISSING_WORLD_FILE = Code(
+    "RC788",
+    Severity.WARNING,
+    "meshes or pictures of the world are not found",
+    """\
+Worlds name their meshes and pictures by paths of the computer on which they were written. A file
+is searched by the end of its path: in the folders of `--files` and of ROBOCOMP_FILES, beside the
+world, and in the folders above it; at last, in the first two, without regard to upper and lower
+case. For `/home/robocomp/robocomp/files/osgModels/table.osg`, any of these finds it:
+
+    rcgen view room.xml --files ~/robocomp/files
+    export ROBOCOMP_FILES=~/robocomp/files:~/my_meshes
+
+A missing mesh is a marker of 2 cm, which touches nothing, is not seen by sensors, and does not
+count for what the view shows; a missing picture is grey. `rcgen check` reports missing files only
+with `--files` or ROBOCOMP_FILES.
+""",
+)
+
 INNERMODEL_TOO_LARGE = Code(
     "RC809",
     Severity.ERROR,
@@ -175,5 +194,23 @@ Right:
     <touchsensor id="bump" type="bumper">
         <plane id="bump_plate" pz="200" size="400,100,20" collide="1"/>
     </touchsensor>
+""",
+)
+
+INNERMODEL_HOME = Code(
+    "RC785",
+    Severity.WARNING,
+    "`home` is outside the limits of the joint",
+    """\
+A joint starts at its `home`, which is also where the command to go to zero sends it. A simulation
+uses the nearest position between `min` and `max`, as RoboComp does.
+
+Wrong:
+
+    <joint id="elbow" min="-1" max="1" home="1.5"/>
+
+Right:
+
+    <joint id="elbow" min="-1" max="1" home="1"/>
 """,
 )

@@ -9,10 +9,11 @@ MISSING_IMPORT = Code(
     Severity.ERROR,
     "imported file not found",
     """\
-An interface description is searched by file name in these folders, and the first match is used: the
-folder of the checked file, the `-I` folders, the folders in the environment variable
-ROBOCOMP_INTERFACES (separated by `:`), and the interfaces that come with the tool. The folders of a
-written path are ignored. File names are case-sensitive.
+The first file found is used: the path as written, relative to the importing file; then its last
+part beside the checked file and beside the importing file; then both in the `-I` folders, in the
+folders of the environment variable ROBOCOMP_INTERFACES (separated by `:`), in `interfaces/` and
+`interfaces/IDSLs/` beside or above the file; then the interfaces that come with the tool. File
+names are case-sensitive.
 
 Wrong:
 
@@ -154,8 +155,7 @@ NOT_IMPORTABLE = Code(
     Severity.ERROR,
     "an import must name an `.idsl` file",
     """\
-Components and interfaces import `.idsl` files by name. They are searched in the interface folders
-only (see RC201); the folders of a written path are ignored.
+Components and interfaces import `.idsl` files by name or path; RC201 tells where they are searched.
 
 Wrong:
 

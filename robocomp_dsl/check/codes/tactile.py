@@ -1,4 +1,4 @@
-"""RC82x: tactile descriptions: generic parts, their limbs and skin."""
+"""RC82x, RC89x: tactile descriptions: generic parts, their limbs and skin."""
 
 from __future__ import annotations
 
@@ -151,5 +151,116 @@ Right:
 
     robot: nao
     model: nao.xml
+""",
+)
+
+TACTILE_FRAME = Code(
+    "RC828",
+    Severity.ERROR,
+    "wrong frame of a limb",
+    """\
+The frame of a limb has its origin on the proximal joint. Its x runs along the limb to the distal
+joint. Its +z, theta = 0, points away from the trunk when all generic angles are zero and the arm
+hangs beside the body. `position` and `rpy` place it in the frame of `body`. With another frame the
+fields are elsewhere on the limb, and the robot moves towards a touch.
+
+Wrong, if x of the body l_forearm is not along the forearm:
+
+    limbs:
+      lower_arm: {body: l_forearm, cone: {x: [26 mm, 96 mm], r: [37 mm, 33 mm]}}
+
+Right:
+
+    limbs:
+      lower_arm: {body: l_forearm, rpy: [90 deg, -90 deg, 0], cone: {x: [26 mm, 96 mm], r: [37 mm,
+        33 mm]}}
+""",
+)
+
+TACTILE_DIRECTION = Code(
+    "RC829",
+    Severity.ERROR,
+    "a servo of an arm moves it in another direction",
+    """\
+The five generic angles mean the same on every robot. At zero the arm hangs straight beside the
+body, and the flexed forearm points forward. Positive angles: 0 raises the arm forward, 1 moves it
+away from the body, 2 turns the flexed forearm inward, 3 flexes the elbow, 4 turns the forearm about
+itself, its upper side inward. gamma and sigma convert the angles of the joints to them; |gamma| is
+1 rad per rad. The model tells where each joint moves the arm.
+
+Wrong, for a joint that raises the arm backward with positive angles:
+
+    servos:
+      - {joint: LShoulderPitch, gamma: 1, sigma: 90 deg, limits: [-2.08, 2.08], speed: 8.2}
+
+Right:
+
+    servos:
+      - {joint: LShoulderPitch, gamma: -1, sigma: 90 deg, limits: [-2.08, 2.08], speed: 8.2}
+""",
+)
+
+TACTILE_CHAIN = Code(
+    "RC890",
+    Severity.ERROR,
+    "the chain differs from the model",
+    """\
+The axes of the Denavit-Hartenberg rows lie within 2 mm and 1 degree of the joints of the model,
+seen from one of the bodies that carry the arm. The finding names the first servo that differs: the
+mistake is in its row, in a row between it and the previous servo, or, for the first servo, in
+`base`. With `tip`, the name of a body or site of the model, the end of the chain is checked, too.
+
+Wrong, if the elbow is 105 mm from the shoulder:
+
+    chain:
+      rows: [{servo: 0, alpha: 90 deg}, {servo: 1, a: 1.05}]
+
+Right:
+
+    chain:
+      rows: [{servo: 0, alpha: 90 deg}, {servo: 1, a: 105 mm}]
+""",
+)
+
+TACTILE_SURFACE = Code(
+    "RC891",
+    Severity.WARNING,
+    "the skin is away from the surface of the model",
+    """\
+More than 5 % of the taxels of a limb (of a limb without skin: of the points of its cone) are more
+than 15 mm from the shapes of its `body` and `covers` in the model. Meshes count as their convex
+hulls. Contacts of the model then fall beside the skin.
+
+Wrong, if the forearm of the model is 28 mm thick:
+
+    limbs:
+      lower_arm: {body: LForeArm, cone: {x: [20 mm, 100 mm], r: [56 mm, 56 mm]}}
+
+Right:
+
+    limbs:
+      lower_arm: {body: LForeArm, cone: {x: [20 mm, 100 mm], r: [28 mm, 28 mm]}}
+""",
+)
+
+TAXELS_UNANSWERED = Code(
+    "RC892",
+    Severity.WARNING,
+    "taxels without a receptive field",
+    """\
+A touch moves the arm only if its place is in a receptive field of the limb. More than 10 % of the
+taxels of this limb are in no field; the finding has the share. Parts without fields are not
+reported.
+
+Wrong, for skin all around the limb:
+
+    fields:
+      - {name: outer, limb: lower_arm, x: 60 mm, theta: 0, radius: 35 mm, motion: [0, -0.25]}
+
+Right:
+
+    fields:
+      - {name: outer, limb: lower_arm, x: 60 mm, theta: 0, radius: 35 mm, motion: [0, -0.25]}
+      - {name: inner, limb: lower_arm, x: 60 mm, theta: 180 deg, radius: 35 mm, motion: [0, 0.25]}
 """,
 )

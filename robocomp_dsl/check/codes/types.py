@@ -9,8 +9,9 @@ UNKNOWN_TYPE = Code(
     Severity.ERROR,
     "unknown type",
     """\
-A type is built in (`bool byte short int long float double string`), declared in the module (in any
-order), or declared in an imported file. The name of its module before it is optional.
+A type is built in (`bool byte short int long float double string`, and `unsigned` before `short`,
+`int` or `long`), declared in the module (in any order), or declared in an imported file. The name
+of its module before it is optional.
 
 Wrong:
 
@@ -139,7 +140,8 @@ DEFAULT_VALUE = Code(
     "the default of a field is out of range",
     """\
 The default is too large for the type, or not an enumerator of the enumeration. A `byte` is 0 to
-255; `short`, `int` and `long` are signed integers of 16, 32 and 64 bits.
+255; `short`, `int` and `long` are signed integers of 16, 32 and 64 bits, and unsigned ones after
+`unsigned`.
 
 Wrong:
 
@@ -239,18 +241,19 @@ without `out`: RoboComp's communication patterns are used this way. If the name 
 
 TOPIC_WITH_OUTPUT = Code(
     "RC314",
-    Severity.ERROR,
+    Severity.WARNING,
     "an interface with outputs is used as a topic",
     """\
-Published messages are sent to every subscriber and have no reply. So all operations of a topic are
-`void`, without `out` and without `throws`.
+Published messages are sent to every subscriber and have no reply. So a topic has only the
+operations that are `void`, without `out` and without `throws`. The others have no method at a
+subscriber, and raise `NotPublishable` if they are called on a published port.
 
-Wrong:
+Not published:
 
     interface Laser { TLaserData getLaserData(); };
     Component base { Communications { publishes Laser; }; language Python; };
 
-Right:
+Better:
 
     interface LaserPub { void pushLaserData(TLaserData scan); };
     Component base { Communications { publishes LaserPub; }; language Python; };
@@ -334,10 +337,9 @@ Right:
 UNIT_CASE = Code(
     "RC319",
     Severity.WARNING,
-    "unusual case of a unit",
+    "unusual spelling of a unit",
     """\
-Units are documentation and any unit is accepted, but case distinguishes units: `mm` and `Mm`, `s`
-and `S`. Use the SI symbols where they exist.
+Case distinguishes units: `mm` and `Mm`, `s` and `S`. A unit is written as its symbol.
 
 Wrong:
 
@@ -346,6 +348,25 @@ Wrong:
 Right:
 
     float rate [Hz];
+""",
+)
+
+UNKNOWN_UNIT = Code(
+    "RC224",
+    Severity.ERROR,
+    "unknown unit",
+    """\
+Brackets behind the name of a field or parameter have its unit: symbols such as `m`, `rad`, `Nm`,
+`degC`, `%`, `px`, `bytes`, `ticks`, with prefixes, `/`, `*` and powers: `mm/s^2`. What is counted,
+such as apples, belongs into the comment. A whole number is the length of an array.
+
+Wrong:
+
+    struct Basket { int size [apples]; double weights[n]; };
+
+Right:
+
+    struct Basket { int size;  /** Number of apples. */ double weights[8] [kg]; };
 """,
 )
 

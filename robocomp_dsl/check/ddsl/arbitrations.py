@@ -14,8 +14,8 @@ from robocomp_dsl.check.codes import connections as codes
 from robocomp_dsl.check.ddsl.connections import ExplicitConnections, add_connection
 from robocomp_dsl.check.ddsl.monitors import ConnectionContext
 from robocomp_dsl.check.literals import join_names
-from robocomp_dsl.check.workspace.imports import replace_fix
-from robocomp_dsl.diagnostics import Note, Report, nearest
+from robocomp_dsl.check.names.unknown_names import report_unknown_name
+from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.model.component import Role
 from robocomp_dsl.model.deployment import Connection, Instance, Monitor
 from robocomp_dsl.monitors.constraint import (
@@ -200,18 +200,15 @@ def _check_events(
             if event.text in (*known, *_CONSTANTS, *reported):
                 continue
             reported.add(event.text)
-            guess = nearest(event.text, known)
-            report.add(
+            report_unknown_name(
+                report,
                 codes.ARBITRATION,
-                event.span,
+                event,
                 f"no monitor of these connections sets the event `{event.text}`",
-                label=f"did you mean `{guess}`?" if guess else "",
-                help=""
-                if guess
-                else f"they set {join_names(known)}"
+                known,
+                f"they set {join_names(known)}"
                 if known
                 else f'a monitor at the receiver sets it: `self.set_event("{event.text}", 0.5)`',
-                fix=replace_fix(event.span, guess) if guess else None,
             )
 
 

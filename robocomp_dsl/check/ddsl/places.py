@@ -12,8 +12,8 @@ from robocomp_dsl.check.codes import deployment as codes
 from robocomp_dsl.check.codes import placement as placement_codes
 from robocomp_dsl.check.ddsl.scopes import DeploymentScope
 from robocomp_dsl.check.literals import join_names
-from robocomp_dsl.check.workspace.imports import replace_fix
-from robocomp_dsl.diagnostics import Note, Report, nearest
+from robocomp_dsl.check.names.unknown_names import report_unknown_name
+from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.model.deployment import HERE, THIS_MACHINE, UNPLACED, Host
 from robocomp_dsl.model.placement import LABEL, LOAD, Placement
 from robocomp_dsl.record import Record
@@ -179,16 +179,15 @@ class _PlaceResolver:
             return self._hosts[name.text]
         if name.text == THIS_MACHINE:
             return _LOCAL
-        guess = nearest(name.text, self._hosts)
-        self._used.add(guess or "")
-        self._report.add(
+        guess = report_unknown_name(
+            self._report,
             codes.UNKNOWN_HOST,
-            name.span,
+            name,
             f"unknown host `{name.text}`",
-            label=f"did you mean `{guess}`?" if guess else "",
-            help="" if guess else f'declare it: `host {name.text} {{ address "10.0.0.2"; }};`',
-            fix=replace_fix(name.span, guess) if guess else None,
+            self._hosts,
+            f'declare it: `host {name.text} {{ address "10.0.0.2"; }};`',
         )
+        self._used.add(guess)
         return None
 
     def _with_label(self, label: Name) -> Sequence[Host]:
@@ -196,20 +195,17 @@ class _PlaceResolver:
         if matching:
             return matching
         known = list(dict.fromkeys(name for h in self._hosts.values() for name in h.labels))
-        guess = nearest(label.text, known)
-        self._used.update(h.name for h in self._hosts.values() if guess in h.labels)
-        self._report.add(
+        guess = report_unknown_name(
+            self._report,
             placement_codes.UNKNOWN_LABEL,
-            label.span,
+            label,
             f"no host has the label `{label.text}`",
-            label=f"did you mean `{guess}`?" if guess else "",
-            help=""
-            if guess
-            else f"the hosts have {join_names(known)}"
+            known,
+            f"the hosts have {join_names(known)}"
             if known
             else f"add it to a host: `labels {label.text};`",
-            fix=replace_fix(label.span, guess) if guess else None,
         )
+        self._used.update(h.name for h in self._hosts.values() if guess in h.labels)
         return ()
 
 

@@ -24,6 +24,7 @@ from robocomp_dsl.check.ddsl.groups import resolve_groups, visible_exports
 from robocomp_dsl.check.ddsl.hosts import resolve_hosts
 from robocomp_dsl.check.ddsl.implicit_connections import implicit_connections
 from robocomp_dsl.check.ddsl.instances import InstanceContext, report_shared_ports, resolve_instance
+from robocomp_dsl.check.ddsl.interface_versions import check_interface_versions
 from robocomp_dsl.check.ddsl.monitored_servers import check_monitored_servers
 from robocomp_dsl.check.ddsl.monitors import ConnectionContext
 from robocomp_dsl.check.ddsl.one_process import (
@@ -142,6 +143,7 @@ class _Resolver:
             )
         valid = [c for c in all_connections if not _follows_error(c, written.faulty_instances)]
         check_carriers(valid, middleware, hosts, known_middlewares, report)
+        check_interface_versions(valid, middleware, known_middlewares, report)
         clock = resolve_clock(tree.clock, order, complete=complete, report=report)
         check_clock_hosts(tree.clock, clock, order, hosts, report)
         return Deployment(

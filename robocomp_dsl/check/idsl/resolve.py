@@ -122,13 +122,24 @@ class _Resolver:
                 return types.Enum(*head, self._enumerators(tree.enumerators))
             case ast.Interface():
                 return self._interface(tree, head)
+        return self._build_of_others(tree, head)
+
+    def _build_of_others(
+        self,
+        tree: ast.Sequence | ast.Dictionary | ast.Alias,
+        head: tuple[str, str, Span, str],
+    ) -> types.Declaration | None:
+        """A declaration of one or two other types."""
+        match tree:
             case ast.Dictionary():
                 key, value = self._names.data(tree.key), self._names.data(tree.value)
                 return types.Dictionary(*head, key, value) if key and value else None
-            case ast.Sequence(element=inner) | ast.Alias(target=inner):
-                part = self._names.data(inner)
-                kind = types.Sequence if isinstance(tree, ast.Sequence) else types.Alias
-                return kind(*head, part) if part else None
+            case ast.Sequence():
+                element = self._names.data(tree.element)
+                return types.Sequence(*head, element, bound=tree.bound) if element else None
+            case ast.Alias():
+                target = self._names.data(tree.target)
+                return types.Alias(*head, target) if target else None
 
     def _fields(
         self,
@@ -149,7 +160,7 @@ class _Resolver:
             element = element.replace(
                 name=f"{element.name}<={tree.string_bound}", bound=tree.string_bound
             )
-        default = self._literal(tree.default, element, f"the default of `{tree.name.text}`")
+        default = self._literal(tree.default, element, f"the default of `{tree.name.text}`", tree)
         type_ = self._array(tree.array, element) if tree.array else element
         items = self._items(tree, element)
         unit = self._unit(tree.unit, type_) or units.get(tree.name.text, "")
@@ -185,15 +196,18 @@ class _Resolver:
             return ()
         return tuple(item for item in items if item is not None)
 
-    def _literal(self, tree: Literal | None, type_: types.Type, what: str) -> types.Literal | None:
+    def _literal(
+        self, tree: Literal | None, type_: types.Type, what: str, field: ast.Field | None = None
+    ) -> types.Literal | None:
         if tree is None:
             return None
+        written = field.type.text if field and not field.string_bound else type_.name
         try:
             return as_type(tree, type_)
         except TypeMismatch as wrong:
             code = codes.DEFAULT_VALUE if isinstance(wrong, OutOfRange) else codes.DEFAULT_TYPE
             self._report.add(
-                code, tree.span, f"{what} does not fit `{type_.name}`: {wrong}", label=wrong.label
+                code, tree.span, f"{what} does not fit `{written}`: {wrong}", label=wrong.label
             )
             return None
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from robocomp_dsl.check.codes import types as codes
 from robocomp_dsl.check.idsl.patterns import is_response
 from robocomp_dsl.check.idsl.resolve import ResolvedModule
-from robocomp_dsl.check.idsl.units import check_unit, holds_number
+from robocomp_dsl.check.idsl.units import UnitCheck, check_suffix, check_unit, holds_number
 from robocomp_dsl.diagnostics import Edit, Fix, Note, Report
 from robocomp_dsl.model import types
 from robocomp_dsl.model.interface import Interface, Operation, Pattern
@@ -18,6 +18,8 @@ from robocomp_dsl.syntax.ast import idsl as ast
 
 def check_idsl_rules(resolved: ResolvedModule, report: Report) -> None:
     """Check the rules of a module."""
+    # The comments of imported definitions have texts in brackets that are no units.
+    check = check_unit if resolved.module.origin else check_suffix
     for tree, resolved_node in resolved.pairs:
         match tree, resolved_node:
             case ast.Enum(), types.Enum():
@@ -27,9 +29,10 @@ def check_idsl_rules(resolved: ResolvedModule, report: Report) -> None:
             case ast.Field(), types.Field():
                 if tree.unit and resolved_node.unit:
                     is_number = holds_number(resolved_node.type)
-                    check_unit(tree.unit, f"`{resolved_node.name}`", report, is_number=is_number)
+                    check(tree.unit, f"`{resolved_node.name}`", report, is_number=is_number)
             case ast.Operation(), Operation():
                 _check_operation(tree, resolved_node, report)
+                _check_units(tree, resolved_node, check, report)
             case _, Interface():
                 _check_mixed_patterns(resolved_node, report)
 
@@ -70,14 +73,19 @@ def _is_key(type_: types.Type) -> bool:
     return False
 
 
-def _check_operation(tree: ast.Operation, operation: Operation, report: Report) -> None:
+def _check_units(
+    tree: ast.Operation, operation: Operation, check: UnitCheck, report: Report
+) -> None:
     for written in tree.params:
         param = next(
             (p for p in operation.inputs + operation.outputs if p.name == written.name.text), None
         )
-        if written.unit and param and param.unit:
+        if written.unit and param:
             is_number = holds_number(param.type)
-            check_unit(written.unit, f"`{param.name}`", report, is_number=is_number)
+            check(written.unit, f"`{param.name}`", report, is_number=is_number)
+
+
+def _check_operation(tree: ast.Operation, operation: Operation, report: Report) -> None:
     if operation.pattern in (Pattern.COMMAND, Pattern.PUBLISH):
         _check_one_way(tree, operation, report)
     elif operation.pattern is Pattern.QUERY and tree.pattern:

@@ -39,6 +39,8 @@ def check_innermodel_rules(model: InnerModel, report: Report) -> None:
     for node, _ in model.nodes():
         if isinstance(node, TouchSensor) and not feels(node):
             _report_touch(node, report)
+        if isinstance(node, Joint | PrismaticJoint):
+            _check_home(node, report)
     if any(isinstance(node, Patch) for node, _ in model.nodes()):
         from robocomp_dsl.check.innermodel.skins import check_skins  # noqa: PLC0415 - numpy
 
@@ -61,6 +63,15 @@ def check_nodes(model: InnerModel, report: Report) -> None:
     for node, parent in model.nodes():
         for message in violations(node, parent):
             report.add(codes.INNERMODEL_RULE, _place(node), message)
+
+
+def _check_home(joint: Joint | PrismaticJoint, report: Report) -> None:
+    home, low, high = joint.home, joint.min, joint.max
+    if home is None or low > high or low <= home <= high:
+        return
+    near = low if home < low else high
+    message = f"`home` ({home:g}) is outside `min` … `max`: that of `{joint.id}` is {near:g}"
+    report.add(codes.INNERMODEL_HOME, _place(joint), message)
 
 
 def _place(node: Node) -> Span:
@@ -93,6 +104,8 @@ def _robocomp_violations(node: Node, parent: Node | None) -> list[str]:
             ]
         case Motor() if not isinstance(parent, Joint | PrismaticJoint):
             messages += ["a motor must be a child of the joint that it drives"]
+        case Motor() if min(node.force, node.gear, node.velocity) <= 0:
+            messages += ["`force`, `gear` and `velocity` of a motor must be positive"]
         case Transform() if node.mass < 0:
             messages += [f"`mass` must not be negative, not {node.mass:g} kg"]
         case Plane() if not all(map(math.isfinite, node.size)):

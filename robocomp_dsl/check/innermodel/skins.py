@@ -52,7 +52,7 @@ def _read(patch: Patch, report: Report) -> TaxelPositions | None:
     try:
         return read_positions(read_text(path), path)
     except DescriptionError as error:
-        report_findings(error, patch.span.source, report)
+        report_findings(error.findings, patch.span.source, report)
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or error
         message = f"the taxel positions `{patch.file}` cannot be read: {why}"

@@ -15,6 +15,7 @@ from robocomp_dsl.check.workspace.ros_imports import (
     report_definition_in_component,
     report_missing_definition,
 )
+from robocomp_dsl.check.workspace.source_cache import canonical_path
 from robocomp_dsl.check.workspace.yarp_definitions import declares_types_only, is_yarp_import
 from robocomp_dsl.diagnostics import Edit, Fix, Note, Report
 from robocomp_dsl.source import Span
@@ -34,8 +35,9 @@ def locate_import(statement: Import, root: Path, search: ImportResolver) -> Path
         return search.ros.find(written, statement.path.span.source.path, root)
     if is_yarp_import(written):
         return search.yarp.find(written, statement.path.span.source.path, root)
-    name = _idsl_name(base_name(statement.path.value))
-    return search.find(name, root) if name.lower().endswith(SUFFIX) else None
+    name = _idsl_name(statement.path.value)
+    beside = statement.path.span.source.path
+    return search.find(name, root, beside) if name.lower().endswith(SUFFIX) else None
 
 
 def find_import(
@@ -63,13 +65,16 @@ def find_import(
     return found
 
 
-def report_duplicate_imports(statements: Sequence[Import], report: Report) -> None:
-    """Report files that are imported twice."""
+def report_duplicate_imports(
+    statements: Sequence[Import], files: Sequence[Path | None], report: Report
+) -> None:
+    """Report files that are imported twice; `files` are those that the statements mean."""
     first: dict[str, Import] = {}
-    for statement in statements:
+    for statement, file in zip(statements, files, strict=True):
         written = statement.path.value
         key = canonical_name(written) if is_ros_import(written) else ""
-        earlier = first.setdefault(key or base_name(written), statement)
+        found = canonical_path(file) if file else base_name(written)
+        earlier = first.setdefault(key or found, statement)
         if earlier is not statement:
             report.add(
                 codes.DUPLICATE_IMPORT,
@@ -132,17 +137,19 @@ def _report_missing(
     name: str, statement: Import, root: Path, search: ImportResolver, report: Report
 ) -> None:
     guess = search.suggest(name, root)
-    looked = ", ".join(str(folder) for folder in search.search_path(root))
-    written = statement.path.value
-    outside = "" if name == written else f"; only the last part, `{name}`, is looked for"
-    place = statement.path.span
+    place, written = statement.path.span, statement.path.value
+    folders = search.search_path(root, place.source.path)
+    looked = ", ".join(str(folder) for folder in folders)
+    outside = "" if name == written else f"`{written}` and then `{name}` in "
     option = "" if place.text.startswith('"') else f", which the option `{place.text}` imports"
     report.add(
         codes.MISSING_IMPORT,
         place,
         f"cannot find `{name}`{option}",
         label=f"did you mean `{guess}`?" if guess else "",
-        help=f"looked in {looked}{outside}; `-I` and ROBOCOMP_INTERFACES add folders",
+        help=f"looked for {outside}{looked}; `-I` and ROBOCOMP_INTERFACES add folders"
+        if outside
+        else f"looked in {looked}; `-I` and ROBOCOMP_INTERFACES add folders",
         fix=replace_fix(statement.path.span, f'"{guess}"') if guess else None,
     )
 
@@ -157,7 +164,6 @@ def _report_no_idsl(
         statement.path.span,
         f"`{statement.path.value}` is not an `{SUFFIX}` file" if name else "no file is named here",
         label=f"did you mean `{guess}`?" if guess else "",
-        help=f"an import names an interface description, such as `Laser{SUFFIX}`; it is looked for "
-        "beside the file and in the interface folders only, wherever the written path leads",
+        help=f"an import names an interface description, such as `Laser{SUFFIX}`",
         fix=replace_fix(statement.path.span, f'"{guess}"') if guess else None,
     )

@@ -46,10 +46,7 @@ class ModuleLoader:
         self._root = Path()
 
     def start_run(self, root: Path) -> None:
-        """Start checking the file `root`: imports are searched from its folder.
-
-        All files imported from one root resolve a name to the same file, wherever they are.
-        """
+        """Start checking the file `root`: imports are also searched from its folder."""
         self._root = root
         self._search.start_run()
         self._fresh.clear()
@@ -76,8 +73,9 @@ class ModuleLoader:
         self, statements: tuple[Import, ...], report: Report
     ) -> list[ResolvedImport]:
         """Resolve import statements; failures are reported."""
-        report_duplicate_imports(statements, report)
-        return [self._resolve_import(statement, report) for statement in statements]
+        links = [self._resolve_import(statement, report) for statement in statements]
+        report_duplicate_imports(statements, [link.path for link in links], report)
+        return links
 
     def _resolve_import(self, statement: Import, report: Report) -> ResolvedImport:
         path = find_import(statement, self._root, self._search, report)

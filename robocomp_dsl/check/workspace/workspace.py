@@ -18,7 +18,10 @@ from robocomp_dsl.resources import INTERFACES
 
 
 class Workspace:
-    """The sources, the import folders and the loaded interface descriptions."""
+    """The sources, the import folders and the loaded interface descriptions.
+
+    `world_folders` are searched for the meshes and pictures of worlds; None: these are not checked.
+    """
 
     def __init__(
         self,
@@ -27,8 +30,10 @@ class Workspace:
         middlewares: KnownMiddlewares | None = None,
         shipped: Path = INTERFACES,
         files: SourceCache | None = None,
+        world_folders: Iterable[Path] | None = None,
     ) -> None:
         self.sources = SourceCache() if files is None else files
         self.import_resolver = ImportResolver(self.sources, folders, environ, shipped)
         self.modules = ModuleLoader(self.sources, self.import_resolver)
+        self.world_folders = None if world_folders is None else tuple(world_folders)
         self.middlewares = middlewares or KnownMiddlewares()

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from robocomp_dsl.runtime.component.component_interface import ComponentProxy, ParameterInfo
 
 CALL_TIMEOUT_S = 5.0
-CONNECT_TIMEOUT_S = 0.3
-"""For all components of a command together; the tokens of components arrive within 10 ms."""
+CONNECT_TIMEOUT_S = 2.0
+"""For all components of a command together; over hosts, routers are connected first."""
 
 which = click.argument("which", metavar="APP.ddsl|NAME")
 output_format = click.option(

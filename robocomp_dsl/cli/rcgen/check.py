@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -29,6 +30,7 @@ Check = Callable[[Path, Workspace, Report], object]
     help="Apply safe fixes, such as updates of legacy syntax, first.",
 )
 @click.option("--diff", is_flag=True, help="With --fix: show the changes; write nothing.")
+@options.world_folders
 @options.output_format
 @click.option("-q", "quiet", is_flag=True, help="Print no summary.")
 @options.folders
@@ -38,6 +40,7 @@ def command(
     syntax: bool,
     fixing: bool,
     diff: bool,
+    world_folders: tuple[Path, ...],
     output_format: str,
     quiet: bool,
     folders: tuple[Path, ...],
@@ -49,7 +52,8 @@ def command(
     if diff and not fixing:
         raise click.UsageError("--diff requires --fix")
     report = Report()
-    workspace = Workspace(folders)
+    search_files = bool(world_folders or os.environ.get("ROBOCOMP_FILES"))
+    workspace = Workspace(folders, world_folders=world_folders if search_files else None)
     check = check_syntax if syntax else check_file
     paths = expand_inputs(files)
     if fixing:

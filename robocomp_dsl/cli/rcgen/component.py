@@ -11,6 +11,8 @@ from pathlib import Path
 
 import click
 
+from robocomp_dsl.check.literals import join_names
+from robocomp_dsl.check.missing_imports import lacks_imports_only
 from robocomp_dsl.check.passes import check_cdsl
 from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.check.workspace.workspace import Workspace
@@ -109,6 +111,9 @@ def command(
         run_mode(mode, folder, files, quiet)
     except CannotWrite as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None
+    if report.has_errors:
+        left_out = join_names([str(name) for name in component.invalid_ports]) or "what needs them"
+        raise CliError(EXIT_FINDINGS, f"imports are missing: generated without {left_out}")
 
 
 def selected_mode(modes: dict[str, bool]) -> str:
@@ -121,9 +126,12 @@ def selected_mode(modes: dict[str, bool]) -> str:
 
 
 def _component(file: Path, language: str, workspace: Workspace, report: Report) -> Component | None:
-    """The component of a file without errors, if its language has a target."""
+    """The component of a file without errors, if its language has a target.
+
+    Of missing imports only the ports are left out that need them.
+    """
     found = check_cdsl(file, workspace, report)
-    if found is None or report.has_errors:
+    if found is None or (report.has_errors and not lacks_imports_only(report)):
         return None
     if (language or found.language).lower() in LANGUAGES:
         return found

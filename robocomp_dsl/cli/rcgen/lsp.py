@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
+
 import click
 
+from robocomp_dsl.check.workspace.import_resolver import VARIABLE
+from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import CliError
 from robocomp_dsl.extras import MissingExtra
 
@@ -18,10 +23,14 @@ HOST = "127.0.0.1"
     "--host", default=HOST, show_default=True, help="With --tcp: the address to listen on."
 )
 @click.option("--stdio", is_flag=True, help="Use stdin and stdout (the default).")
-def command(port: int | None, host: str, stdio: bool) -> None:
+@options.folders
+def command(port: int | None, host: str, stdio: bool, folders: tuple[Path, ...]) -> None:
     """Start the language server: diagnostics, completion, navigation and rename in editors."""
     if stdio and port is not None:
         raise click.UsageError("--stdio and --tcp exclude each other")
+    if folders:
+        listed = [*(str(folder.absolute()) for folder in folders), os.environ.get(VARIABLE, "")]
+        os.environ[VARIABLE] = os.pathsep.join(filter(None, listed))
     try:
         from robocomp_dsl.language_server import server  # noqa: PLC0415 - needs an extra
     except ModuleNotFoundError as error:

@@ -5,6 +5,7 @@ In: a name, and ports or the name of an example. Out: new files.
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 from collections.abc import Iterator
@@ -112,8 +113,22 @@ def _imports(
     found = []
     for interface in dict.fromkeys(x for names in interfaces.values() for x in names):
         path = None if interface in own else _find_declaring_file(interface, workspace, root)
-        found.append(path.name if path else f"{interface}.idsl")
+        found.append(_import_text(path, root) if path else f"{interface}.idsl")
     return list(dict.fromkeys(found))
+
+
+def _import_text(path: Path, root: Path) -> str:
+    """What to import for the file `path` in the new file `root`: its name, if that is enough.
+
+    Without `-I`, as the next commands may be given and as an editor works.
+    """
+    found = Workspace().import_resolver.find(path.name, root)
+    if found is not None and found.resolve() == path.resolve():
+        return path.name
+    try:
+        return Path(os.path.relpath(path.resolve(), root.parent.resolve())).as_posix()
+    except ValueError:  # on another drive
+        return path.resolve().as_posix()
 
 
 def _find_declaring_file(interface: str, workspace: Workspace, root: Path) -> Path:

@@ -26,6 +26,9 @@ PROPERTIES = (
     "StatusText,ActiveEnterTimestampMonotonic,InactiveEnterTimestampMonotonic,Job,"
     "InactiveExitTimestampMonotonic,StartLimitBurst"
 )
+# A manager that reads its units again forgets how often they were started lately.
+NO_RELOAD, NO_BLOCK = ["--no-reload"], ["--no-block"]
+OPTIONS = {"start": NO_BLOCK, "restart": NO_BLOCK, "enable": NO_RELOAD, "disable": NO_RELOAD}
 UNITS = Path(".config/systemd/user")
 PERIOD_S = 0.1
 SILENCE_S = 30.0
@@ -203,8 +206,7 @@ class Agent:
             self.operations[unit] = self.operations.get(unit, 0) + 1
             if unit in self.watched:
                 self.watched[unit] = None
-        waits = operation not in ("start", "restart")
-        code, _, error = systemctl(operation, *([] if waits else ["--no-block"]), "--", *units)
+        code, _, error = systemctl(operation, *OPTIONS.get(operation, ()), "--", *units)
         return {"code": code, "error": error}
 
     def watch(self, units: list[str]) -> dict[str, Any]:

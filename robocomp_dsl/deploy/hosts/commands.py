@@ -12,6 +12,8 @@ ENVIRONMENT_SCRIPT = (
 )
 """Sets what `systemctl --user` needs, where the login did not; POSIX sh."""
 COMMAND_TIMEOUT_S = 30.0
+CONNECT_SILENCE_S = 15.0
+"""A host that does not answer a step of the login within this time is out of reach."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,12 @@ from collections.abc import AsyncIterator, Sequence
 from importlib import import_module
 from typing import Protocol
 
-from robocomp_dsl.deploy.hosts.commands import COMMAND_TIMEOUT_S, CommandResult, Upload
+from robocomp_dsl.deploy.hosts.commands import (
+    COMMAND_TIMEOUT_S,
+    CONNECT_SILENCE_S,
+    CommandResult,
+    Upload,
+)
 from robocomp_dsl.model.deployment import Host
 
 __all__ = ["CommandResult", "HostConnection", "HostProcess", "Upload", "connect"]
@@ -58,8 +63,11 @@ class HostConnection(Protocol):
         """End the connection; running commands of it end or lose their output."""
 
 
-async def connect(host: Host) -> HostConnection:
-    """Connect to a host. Raises `HostUnreachable` or `HostRefused`."""
+async def connect(host: Host, silence_s: float = CONNECT_SILENCE_S) -> HostConnection:
+    """Connect to a host. Raises `HostUnreachable` or `HostRefused`.
+
+    `silence_s`: how long to wait for the answer to each step of the login, in seconds.
+    """
     if host.is_local:
         from robocomp_dsl.deploy.hosts.local import LocalConnection  # noqa: PLC0415
 
@@ -67,7 +75,7 @@ async def connect(host: Host) -> HostConnection:
     load_ssh()
     from robocomp_dsl.deploy.hosts.ssh import connect_ssh  # noqa: PLC0415
 
-    return await connect_ssh(host)
+    return await connect_ssh(host, silence_s)
 
 
 def load_ssh() -> None:

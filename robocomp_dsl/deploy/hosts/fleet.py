@@ -11,6 +11,7 @@ from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from typing import TypeVar
 
+from robocomp_dsl.deploy.hosts.commands import CONNECT_SILENCE_S
 from robocomp_dsl.deploy.hosts.connection import HostConnection, connect
 from robocomp_dsl.deploy.hosts.errors import HostError, HostUnreachable
 from robocomp_dsl.deploy.hosts.host_agent import HostAgent, open_agent
@@ -18,7 +19,6 @@ from robocomp_dsl.deploy.hosts.host_facts import HostFacts, fetch_facts
 from robocomp_dsl.deploy.hosts.host_report import HostReport
 from robocomp_dsl.model.deployment import Host
 
-CONNECT_TIMEOUT_S = 10.0
 CLOSE_TIMEOUT_S = 2.0
 Result = TypeVar("Result")
 
@@ -56,27 +56,29 @@ class Fleet:
 async def open_fleet(
     hosts: Iterable[Host],
     deployment: str,
-    timeout_s: float = CONNECT_TIMEOUT_S,
+    silence_s: float = CONNECT_SILENCE_S,
     *,
     with_facts: bool = False,
 ) -> AsyncIterator[Fleet]:
-    """Connect to all hosts at the same time; each has `timeout_s` seconds."""
+    """Connect to all hosts at the same time.
+
+    A host that answers nothing for `silence_s` seconds has a failure instead of an agent.
+    """
     fleet = Fleet()
     connections: list[HostConnection] = []
 
     async def open_host(host: Host) -> None:
         try:
-            async with asyncio.timeout(timeout_s):
-                connection = await connect(host)
-                connections.append(connection)
+            connection = await connect(host, silence_s)
+            connections.append(connection)
             if with_facts:
                 fleet.facts[host.name] = await fetch_facts(connection, deployment)
-            async with asyncio.timeout(timeout_s):
+            async with asyncio.timeout(silence_s):
                 fleet.agents[host.name] = await open_agent(connection, deployment)
         except HostError as error:
             fleet.failures[host.name] = error
         except TimeoutError:
-            text = f"{host.name} ({host.address}): no answer within {timeout_s:g} s"
+            text = f"{host.name} ({host.address}): no answer within {silence_s:g} s"
             fleet.failures[host.name] = HostUnreachable(text)
 
     try:

@@ -20,6 +20,9 @@ from robocomp_dsl.deploy.hosts.host_report import HostReport, UnitState
 from robocomp_dsl.deploy.units import names
 
 REPLY_TIMEOUT_S = 60.0
+END_TIMEOUT_S = 1.0
+UNLOCK_TIMEOUT_S = 10.0
+"""How long the end of a script is awaited that holds the lock: the next command needs it."""
 PING_S = 5.0
 SCRIPT = Path(__file__).with_name("agent_script.py")
 StateListener: TypeAlias = Callable[[str, UnitState], None]
@@ -35,6 +38,7 @@ class HostAgent:
         self._replies: deque[asyncio.Future[Any]] = deque()
         self._listener: StateListener | None = None
         self._failure: HostError | None = None
+        self._has_lock = False
         self._sending = asyncio.Lock()
         loop = asyncio.get_running_loop()
         self._tasks = [loop.create_task(self._receive()), loop.create_task(self._ping())]
@@ -44,7 +48,7 @@ class HostAgent:
         for task in self._tasks:
             task.cancel()
         with suppress(HostError, TimeoutError):
-            async with asyncio.timeout(1.0):
+            async with asyncio.timeout(UNLOCK_TIMEOUT_S if self._has_lock else END_TIMEOUT_S):
                 await self._process.close()
 
     async def report(self, *, usage: bool = False) -> HostReport:
@@ -53,7 +57,9 @@ class HostAgent:
 
     async def lock(self, who: str) -> str:
         """Lock the deployment on this host until `close`; returns the holder if it is locked."""
-        return str((await self._request("acquire", who=who))["holder"])
+        holder = str((await self._request("acquire", who=who))["holder"])
+        self._has_lock = not holder
+        return holder
 
     async def systemctl(self, verb: str, units: Sequence[str]) -> None:
         """Run `systemctl --user`; `start` and `restart` only begin. Raises `HostError`."""

@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 from robocomp_dsl.deploy import status
 from robocomp_dsl.deploy.engine import DeploymentStatus, EngineError, StopResult
 from robocomp_dsl.deploy.hosts import registry
+from robocomp_dsl.deploy.hosts.commands import CONNECT_SILENCE_S
 from robocomp_dsl.deploy.hosts.denials import latest_denials
 from robocomp_dsl.deploy.hosts.description import all_components
 from robocomp_dsl.deploy.hosts.differences import stored_manifest
@@ -23,6 +24,7 @@ from robocomp_dsl.deploy.hosts.fleet import Fleet, open_fleet
 from robocomp_dsl.deploy.hosts.host_agent import HostAgent
 from robocomp_dsl.deploy.hosts.host_report import UnitState
 from robocomp_dsl.deploy.hosts.host_rows import host_rows
+from robocomp_dsl.deploy.hosts.last_lines import fetch_last_lines, show_last_lines
 from robocomp_dsl.deploy.hosts.manifest import HostedComponent, HostManifest, host_as_dict
 from robocomp_dsl.deploy.hosts.registry import HostedDeployment
 from robocomp_dsl.deploy.hosts.rollout import (
@@ -44,8 +46,8 @@ from robocomp_dsl.deploy.selection import NoSuchComponent, select_names
 from robocomp_dsl.deploy.status import ProcessStatus, format_duration
 from robocomp_dsl.deploy.units import names as unit_names
 
-STATUS_TIMEOUT_S = 5.0
-"""A host that does not answer within this time is shown as unreachable."""
+STATUS_SILENCE_S = 5.0
+"""A host that answers nothing for so long is shown as unreachable."""
 Result = TypeVar("Result")
 Report = Callable[[str], object]
 
@@ -96,11 +98,12 @@ class HostEngine:
         return run_async(self._status())
 
     async def _status(self) -> DeploymentStatus:
-        async with self._fleet(STATUS_TIMEOUT_S) as fleet:
+        async with self._fleet(STATUS_SILENCE_S) as fleet:
             reports = await fleet.reports(usage=True)
             denials = await latest_denials(fleet, reports)
+            rows = [row for report in reports.values() for row in host_rows(report)]
+            last_lines = await fetch_last_lines(fleet, rows)
         order = {name: i for i, name in enumerate(self.components())}
-        rows = [row for report in reports.values() for row in host_rows(report)]
         rows = [replace(row, note=row.note or denials.get(row.name, "")) for row in rows]
         for host in fleet.failures:
             rows += [
@@ -110,7 +113,7 @@ class HostEngine:
             ]
         rows.sort(key=lambda row: order.get(row.name, len(order)))
         problems = [_describe_failure(error) for error in fleet.failures.values()]
-        return DeploymentStatus(rows, problems=problems)
+        return DeploymentStatus(rows, problems=problems, last_lines=last_lines)
 
     def change(self, verb: str, names: Sequence[str], report: Report) -> int:
         """See `Engine`."""
@@ -234,8 +237,8 @@ class HostEngine:
                 await show_last_lines(fleet, component, report)
         return result
 
-    def _fleet(self, timeout_s: float = 10.0) -> Any:
-        return open_fleet(self.deployment.hosts, self.name, timeout_s)
+    def _fleet(self, silence_s: float = CONNECT_SILENCE_S) -> Any:
+        return open_fleet(self.deployment.hosts, self.name, silence_s)
 
     async def _deployed(self, fleet: Fleet) -> tuple[dict[str, HostManifest], dict[str, UnitState]]:
         """What is deployed on the hosts that answer, and the states of components; locks them."""
@@ -279,22 +282,3 @@ def run_async(work: Coroutine[Any, Any, Result]) -> Result:
 
 def _describe_failure(error: HostError) -> str:
     return f"{error.message}; {error.help}" if error.help else error.message
-
-
-async def show_last_lines(
-    fleet: Fleet, component: HostedComponent, report: Report, count: int = 10
-) -> None:
-    """Report the last log lines of a component that failed."""
-    from robocomp_dsl.deploy.hosts.log_records import FileRecords  # noqa: PLC0415 - for failures
-    from robocomp_dsl.deploy.logs import format_record  # noqa: PLC0415
-
-    agent = fleet.agents.get(component.host)
-    if agent is None:
-        return
-    try:
-        text = await agent.tail(component.name)
-    except HostError:
-        return
-    records = FileRecords(component.name, component.host).feed(text.encode(), time.time())
-    for record in records[-count:]:
-        report(f"    {format_record(record, len(component.name), colours=False)}")

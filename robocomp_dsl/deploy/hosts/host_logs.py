@@ -26,7 +26,6 @@ from robocomp_dsl.model.deployment import Host
 
 SCRIPT = Path(__file__).with_name("log_script.py")
 RECONNECT_S = 1.0
-CONNECT_TIMEOUT_S = 10.0
 SILENCE_S = 10.0
 """The script sends something every second; after so long the link is taken for cut."""
 REORDER_S = 0.4
@@ -63,12 +62,7 @@ class HostLogReader:
 
     async def read(self, *, follow: bool) -> AsyncIterator[list[LogRecord]]:
         """Chunks of records; an empty one ends the first pass. Raises `HostError`."""
-        try:
-            async with asyncio.timeout(CONNECT_TIMEOUT_S):
-                connection = await connect(self.host)
-        except TimeoutError:
-            text = f"{self.host.name}: no answer within {CONNECT_TIMEOUT_S:g} s"
-            raise HostUnreachable(text) from None
+        connection = await connect(self.host, SILENCE_S)
         try:
             command = ["python3", "-c", SCRIPT.read_text("utf-8"), self._arguments(follow=follow)]
             frames = _Frames(connection.stream(command), self.host)

@@ -32,10 +32,10 @@ MAX_COMMANDS = 5
 CLOSE_TIMEOUT_S = 1.0
 
 
-async def connect_ssh(host: Host) -> SshConnection:
+async def connect_ssh(host: Host, silence_s: float) -> SshConnection:
     """Connect to a host by SSH. Raises `HostUnreachable` or `HostRefused`."""
     check = HostKeyCheck()
-    return SshConnection(host, await open_connection(host, check), check)
+    return SshConnection(host, await open_connection(host, check, silence_s), check)
 
 
 def quote_command(command: Sequence[str]) -> str:

@@ -35,7 +35,7 @@ class SshFiles:
         self._uploads = asyncio.Semaphore(MAX_UPLOADS)
         self._sftp: asyncssh.SFTPClient | None = None
         self._opening = asyncio.Lock()
-        self._folders: set[str] = set()
+        self._folders: set[str] = set()  # created by this connection
 
     async def read(self, path: str) -> bytes | None:
         """The content of a file; None if it does not exist."""
@@ -62,9 +62,8 @@ class SshFiles:
         async with self._uploads:
             draft = f"{file.remote}.{secrets.token_hex(4)}~"
             try:
-                await self._make_folder(sftp, str(PurePosixPath(file.remote).parent))
                 attributes = asyncssh.SFTPAttrs(permissions=file.mode)
-                async with sftp.open(draft, "wb", attributes) as target:
+                async with await self._create(sftp, draft, attributes) as target:
                     if isinstance(file.local, Path):
                         await _copy(file.local, target)
                     else:
@@ -77,10 +76,22 @@ class SshFiles:
                     await sftp.remove(draft)
                 raise described from None
 
-    async def _make_folder(self, sftp: asyncssh.SFTPClient, folder: str) -> None:
-        if folder not in self._folders:
-            await sftp.makedirs(folder, exist_ok=True)
-            self._folders.add(folder)
+    async def _create(
+        self, sftp: asyncssh.SFTPClient, path: str, attributes: asyncssh.SFTPAttrs
+    ) -> asyncssh.SFTPClientFile:
+        """Create a file, and its folder if there is none.
+
+        Most folders exist, and each level of a path costs two round trips to create.
+        """
+        try:
+            return await sftp.open(path, "wb", attributes)
+        except (asyncssh.SFTPNoSuchFile, asyncssh.SFTPNoSuchPath):
+            folder = str(PurePosixPath(path).parent)
+            if folder in self._folders:
+                raise
+        await sftp.makedirs(folder, exist_ok=True)
+        self._folders.add(folder)
+        return await sftp.open(path, "wb", attributes)
 
     async def _open(self) -> asyncssh.SFTPClient:
         async with self._opening:

@@ -18,8 +18,8 @@ from robocomp_dsl.deploy.hosts.host_report import UnitState
 from robocomp_dsl.deploy.hosts.manifest import HostedComponent
 from robocomp_dsl.deploy.plan import batches
 
-MARGIN_S = 5.0
-"""Time beyond the limit of a start, until the host reports its end."""
+MARGIN_S = 15.0
+"""Time beyond the limit of a start, until the host reports its end over a slow link."""
 
 
 class UnitRunner:

@@ -168,10 +168,13 @@ class _Keys:
             yield Grant(OUT, TOKEN, key)
         # Who serves and subscribes is known anyway. A program that did not know would send nothing,
         # and its attempt would not be in the log of the router.
-        for kind in ("q", "n", "l", "h"):
+        for kind in ("q", "n", "l", "h", "i"):
             yield Grant(OUT, SERVE, f"{self._root}/{kind}/**")
         for kind in ("t", "c"):
             yield Grant(OUT, SUBSCRIBE, f"{self._root}/{kind}/**")
+        # The shapes of operations are no secret, either: they tell why versions do not fit.
+        yield from self._answering(f"{self._root}/i/{self._component}/*/*")
+        yield from self._asking(f"{self._root}/i/**")
         yield Grant(IN, ASK_TOKENS, f"{self._root}/p/server/**")
         yield Grant(IN, TOKEN, f"{self._root}/s/{self._component}/*/*")
 

@@ -19,6 +19,7 @@ from robocomp_dsl.model.component import Role
 from robocomp_dsl.model.deployment import Qos
 from robocomp_dsl.model.interface import Module, Operation, Param, Pattern
 from robocomp_dsl.model.types import Enum, Field, Primitive, Sequence, Struct, Type
+from robocomp_dsl.model.units import unknown_words
 from robocomp_dsl.record import ValueRecord
 
 FOLDER = "python/bridge/"
@@ -234,7 +235,7 @@ class _IdslPrinter:
         return type_.name if is_own else type_.qualified
 
     def _field(self, field: Field) -> str:
-        unit = f" [{field.unit}]" if field.unit else ""
+        unit = _known_unit(field.unit)
         return f"{self._type(field.type)} {field.name}{unit};"
 
     def _operation(self, operation: Operation) -> str:
@@ -247,5 +248,10 @@ class _IdslPrinter:
         return f"{marks}{result} {operation.name}({', '.join(parameters)});"
 
     def _parameter(self, parameter: Param) -> str:
-        unit = f" [{parameter.unit}]" if parameter.unit else ""
+        unit = _known_unit(parameter.unit)
         return f"{self._type(parameter.type)} {parameter.name}{unit}"
+
+
+def _known_unit(text: str) -> str:
+    """A unit in brackets; "" for one of a program's own, which bridges have and IDSL has not."""
+    return f" [{text}]" if text and not unknown_words(text) else ""

@@ -121,6 +121,8 @@ def _facts(component: Component, site: DocumentationSite) -> Iterator[tuple[str,
 def _port(port: Port, site: DocumentationSite) -> TableRow:
     groups: dict[Pattern, list[Inlines]] = {}
     for operation, words in operation_links(port.interface, site):
+        if operation not in port.operations:  # a topic has no operations with outputs
+            continue
         groups.setdefault(port.pattern(operation), []).append(words)
     spoken = join_inlines(
         (

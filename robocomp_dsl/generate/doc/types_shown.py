@@ -94,7 +94,8 @@ def _default(field: Field) -> str:
 
 
 def container_declaration(declaration: Sequence | Dictionary, site: DocumentationSite) -> Inlines:
-    """`sequence<T> name;`."""
+    """`sequence<T> name;`, with its bound if there is one."""
+    bound = declaration.bound if isinstance(declaration, Sequence) else 0
     inner = (
         site.type_link(declaration.element)
         if isinstance(declaration, Sequence)
@@ -107,7 +108,7 @@ def container_declaration(declaration: Sequence | Dictionary, site: Documentatio
     return (
         InlineCode(f"{KINDS[type(declaration)]}<"),
         *inner,
-        InlineCode(f"> {declaration.name};"),
+        InlineCode(f"{f', {bound}' if bound else ''}> {declaration.name};"),
     )
 
 

@@ -74,7 +74,7 @@ def _definitions(declaration: Declaration) -> Schema:
             values = ", ".join(f"{e.name} = {e.value}" for e in declaration.enumerators)
             schema = {"enum": [e.name for e in declaration.enumerators], "$comment": values}
         case SequenceType():
-            schema = {"type": "array", "items": _type_schema(declaration.element)}
+            schema = _array(declaration)
         case Dictionary():
             schema = _dictionary(declaration)
         case _:
@@ -99,7 +99,7 @@ def _type_schema(type_: Type) -> Schema:
 
 
 def _array(array: SequenceType) -> Schema:
-    """The array of a field in a ROS definition."""
+    """A sequence, or the array of a field, with its length or bound."""
     schema = {"type": "array", "items": _type_schema(array.element)}
     if array.size:
         return {**schema, "minItems": array.size, "maxItems": array.size}

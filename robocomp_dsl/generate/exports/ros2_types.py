@@ -4,10 +4,13 @@ In: modules. Out: the package and message name of each declaration, and the memb
 type. A value has the same CDR bytes on both sides:
 
     bool, byte, short, int, long    bool, uint8, int16, int32, int64
+    unsigned short, int, long       uint16, uint32, uint64
     float, double, string           float32, float64, string
     struct, exception               a message of its members
     enum                            a message with constants and one member `int32 value`
     sequence<T>                     T[]; a nested array is a message with one member `data`
+    sequence<T, 10>                 T[<=10]
+    array of 36                     T[36]
     dictionary<K, V>                an array of `<name>Entry` messages with `key` and `value`
 """
 
@@ -28,6 +31,9 @@ from robocomp_dsl.model.types import (
     LONG,
     SHORT,
     STRING,
+    UINT16,
+    UINT32,
+    UINT64,
     Declaration,
     Dictionary,
     ExceptionType,
@@ -46,6 +52,9 @@ PRIMITIVES = {
     FLOAT: "float32",
     DOUBLE: "float64",
     STRING: "string",
+    UINT16: "uint16",
+    UINT32: "uint32",
+    UINT64: "uint64",
 }
 NAME_CLASH = "another name would be the same in ROS 2"
 
@@ -119,7 +128,8 @@ class Ros2Types:
         """`one` as the type of a member in a message of `package`."""
         match type_:
             case SequenceType():
-                return f"{self.element_type(type_.element, package)}[]"
+                limit = type_.size or (f"<={type_.bound}" if type_.bound else "")
+                return f"{self.element_type(type_.element, package)}[{limit}]"
             case Dictionary():
                 return f"{self._qualify(type_, self._entries[type_], package)}[]"
         return self.element_type(type_, package)

@@ -3,7 +3,8 @@
 In: modules. Out: one `.ice` file for each IDSL file. The wire format equals that of RoboComp's own
 `.ice` files: the order of fields, parameters and enumerators, and the names of modules, interfaces,
 operations and exceptions. Output parameters follow the inputs, as Slice requires and as they are
-encoded.
+encoded. Slice has no arrays, no bounds and no unsigned integers: it gets sequences and integers
+with the same bytes, and the comments tell the limits.
 """
 
 from __future__ import annotations
@@ -40,7 +41,8 @@ from robocomp_dsl.model.types import (
 
 STEP = "    "
 _SAME_SIZE = {INT8: "byte", OCTET: "byte", UINT16: "short", UINT32: "int", UINT64: "long"}
-"""Slice types of ROS's numbers: with the same bytes, as Slice has no unsigned types."""
+"""Slice types with the same bytes: Slice has no unsigned types."""
+_UNSIGNED = (UINT16, UINT32, UINT64)
 
 
 def files(modules: Sequence[Module], alone: bool, report: Report) -> Iterator[OutputFile]:
@@ -124,7 +126,7 @@ class _Printer:
 
     def declaration(self, declaration: Declaration) -> str:
         """One declaration with its comment, indented once."""
-        name = escape_keyword(self._names[declaration])
+        name, doc = escape_keyword(self._names[declaration]), declaration.doc
         self._inside = frozenset(self._names[each].lower() for each in members(declaration))
         match declaration:
             case Enum():
@@ -133,9 +135,11 @@ class _Printer:
                 arrays = "".join(f"{row}\n" for row in self._arrays(declaration))
                 text = f"{arrays}struct {name}{_block(self._struct(declaration))}"
             case ExceptionType():
-                text = f"exception {name}{_block(self._fields(declaration.fields))}"
+                arrays = "".join(f"{row}\n" for row in self._arrays(declaration))
+                text = f"{arrays}exception {name}{_block(self._fields(declaration.fields))}"
             case SequenceType():
                 text = f"sequence<{self._type(declaration.element)}> {name};"
+                doc = "\n".join(part for part in (doc, _sequence_limits(declaration)) if part)
             case Dictionary():
                 key, value = self._type(declaration.key), self._type(declaration.value)
                 text = f"dictionary<{key}, {value}> {name};"
@@ -144,8 +148,7 @@ class _Printer:
             case _:
                 raise TypeError(f"{declaration.qualified} cannot be exported")
         return "".join(
-            f"{STEP}{row}\n" if row else "\n"
-            for row in [*comment(declaration.doc), *text.split("\n")]
+            f"{STEP}{row}\n" if row else "\n" for row in [*comment(doc), *text.split("\n")]
         )
 
     def _type(self, type_: Type | ExceptionType) -> str:
@@ -183,8 +186,8 @@ class _Printer:
             yield "bool unused;"
         yield from self._fields(struct.fields)
 
-    def _arrays(self, struct: Struct) -> Iterator[str]:
-        """The sequences of the fields of a ROS definition, which have no names there."""
+    def _arrays(self, struct: Struct | ExceptionType) -> Iterator[str]:
+        """The arrays of the fields, as sequences: Slice has no arrays."""
         for field in struct.fields:
             if isinstance(field.type, SequenceType) and field.type.is_anonymous:
                 name = self._names[field.type]
@@ -192,7 +195,7 @@ class _Printer:
 
     def _fields(self, all_: Iterable[Field]) -> Iterator[str]:
         for field in all_:
-            yield from comment(field.doc, field.unit)
+            yield from comment(_with_limits(field), field.unit)
             name = escape_keyword(self._names[field])
             yield f"{self._type(field.type)} {name}{self._default(field)};"
 
@@ -213,9 +216,10 @@ class _Printer:
 
     def _operations(self, interface: Interface) -> Iterator[str]:
         for each in interface.operations:
+            bits = [f"{n} has the bits of an {t.name}." for n, t in _unsigned_values(each)]
             units = [f"{p.name} in {p.unit}" for p in (*each.inputs, *each.outputs) if p.unit]
             message = f"Units: {', '.join(units)}." if units else ""
-            yield from comment("\n".join(part for part in (each.doc, message) if part))
+            yield from comment("\n".join(part for part in (each.doc, message, *bits) if part))
             yield self._operation(each)
 
     def _operation(self, operation: Operation) -> str:
@@ -233,6 +237,34 @@ class _Printer:
             f"{escape_keyword(self._names[operation])}"
             f"({', '.join(parameters)}){f' throws {thrown}' if thrown else ''};"
         )
+
+
+def _unsigned_values(operation: Operation) -> Iterator[tuple[str, Primitive]]:
+    """Parameters and result that have no sign, with their types."""
+    params = ((f"`{p.name}`", p.type) for p in (*operation.inputs, *operation.outputs))
+    for name, type_ in (*params, ("The result", operation.result)):
+        if isinstance(type_, Primitive) and type_ in _UNSIGNED:
+            yield name, type_
+
+
+def _with_limits(field: Field) -> str:
+    """The comment of a field, with what Slice cannot express of its type."""
+    return "\n".join(part for part in (field.doc, _limits(field.type)) if part)
+
+
+def _limits(type_: Type) -> str:
+    """What is missing in the Slice type of `type_`, as a sentence."""
+    if isinstance(type_, SequenceType) and type_.is_anonymous:
+        return _sequence_limits(type_)
+    if isinstance(type_, Primitive) and type_ in _UNSIGNED:
+        return f"The bits of an {type_.name}."
+    return ""
+
+
+def _sequence_limits(type_: SequenceType) -> str:
+    count = f"Exactly {type_.size} elements." if type_.size else ""
+    bound = f"At most {type_.bound} elements." if type_.bound else ""
+    return " ".join(part for part in (count, bound, _limits(type_.element)) if part)
 
 
 def _block(rows: Iterable[str]) -> str:

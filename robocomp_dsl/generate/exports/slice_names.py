@@ -88,7 +88,7 @@ class SliceNames:
                     self._claim((*operation.inputs, *operation.outputs), NameTable(valid_name))
 
     def _claim_arrays(self, declaration: Struct | ExceptionType) -> None:
-        """Name the arrays of a ROS definition after their fields."""
+        """Name the arrays of fields after the fields."""
         for field in declaration.fields:
             if isinstance(field.type, SequenceType) and field.type.is_anonymous:
                 name = f"{self._names[declaration]}_{self._names[field]}"

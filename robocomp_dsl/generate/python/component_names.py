@@ -75,9 +75,7 @@ def members(
     proxies = {
         p: scope.claim(f"{p.name.lower()}_proxy") for p in component.ports if p not in served
     }
-    handlers = {
-        (p, o): scope.claim(f"{p.name}_{o.name}") for p in served for o in p.interface.operations
-    }
+    handlers = {(p, o): scope.claim(f"{p.name}_{o.name}") for p in served for o in p.operations}
     package = names.package_of(component.name)
     return PythonNames(package, types, interfaces, handlers, proxies, params)
 

@@ -33,6 +33,7 @@ class OperationCode(ValueRecord):
     throws: str
     idempotent: str
     input_defaults: str
+    units: str
 
 
 class InterfaceCode(ValueRecord):
@@ -84,6 +85,7 @@ def _operation(operation: Operation, types: PythonTypes) -> OperationCode:
         f"({', '.join(throws)}{',' if len(throws) == 1 else ''})" if throws else "",
         "True" if operation.idempotent else "",
         _defaults(operation, types),
+        literals.unit_table((*operation.inputs, *operation.outputs)),
     )
 
 
@@ -152,7 +154,8 @@ def _exceptions(types: PythonTypes) -> Iterator[str]:
 
 def _imports(types: tuple[TypeCode, ...], interfaces: tuple[InterfaceCode, ...]) -> Iterator[str]:
     typing = []
-    if any("Annotated[" in field.type for type_ in types for field in type_.fields):
+    annotations = (text for t in types for text in (t.base, *(field.type for field in t.fields)))
+    if any("Annotated[" in text for text in annotations):
         typing = ["Annotated"]
     if any(len(form.takers) > 1 for interface in interfaces for form in interface.forms):
         typing += ["Any", "overload"]

@@ -120,9 +120,13 @@ class PythonTypes:
         return f"_{name}" if inside is not None and name in field_names(inside) else name
 
     def _declared_array(self, type_: Sequence, inside: Struct | ExceptionType | None) -> str:
-        """The annotation of the array of a field in a ROS definition."""
+        """The annotation of the array of a field."""
         if type_.element in self._arrays and not (type_.size or type_.bound):
             return self.declared(self._arrays[type_.element], inside)
+        return self.list_or_array(type_, inside)
+
+    def list_or_array(self, type_: Sequence, inside: Struct | ExceptionType | None = None) -> str:
+        """The annotation of a sequence: a numpy array or a list, with its length or bound."""
         array = numpy_of(type_)
         plain = array.alias if array else f"list[{self.declared(type_.element, inside)}]"
         if type_.size:
@@ -210,6 +214,7 @@ def record_element(type_: Type) -> Struct | None:
     """The struct of a sequence stored as a structured array, which needs a fixed layout."""
     if (
         isinstance(type_, Sequence)
+        and not (type_.size or type_.bound)
         and isinstance(type_.element, Struct)
         and is_fixed(type_.element)
     ):
@@ -231,7 +236,7 @@ def _arrays_of_ros(found: Iterable[Declaration]) -> Iterator[Sequence]:
         if isinstance(declaration, Struct)
         for field in declaration.fields
         if isinstance(field.type, Sequence) and field.type.is_anonymous
-        if not (field.type.size or field.type.bound) and (element := record_element(field.type))
+        if (element := record_element(field.type))
     }
     for struct in elements:
         doc = f"A sequence of {struct.qualified}."

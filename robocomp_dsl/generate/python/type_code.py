@@ -14,7 +14,6 @@ from robocomp_dsl.generate.python.python_types import (
     PythonTypes,
     column_of,
     field_names,
-    numpy_of,
     record_element,
 )
 from robocomp_dsl.model.types import (
@@ -67,7 +66,7 @@ class TypeCode(ValueRecord):
 
     `base` is the base class of a struct, the element of an array, the target of an alias. `type_id`
     is the name of a struct in its IDSL file. `rename` is empty if all attributes have their wire
-    names. `is_hidden`: a field has the type's name.
+    names, `units` if no field has a unit. `is_hidden`: a field has the type's name.
     """
 
     kind: str
@@ -79,6 +78,7 @@ class TypeCode(ValueRecord):
     type_id: str = ""
     definition: str = ""
     rename: str = ""
+    units: str = ""
     constants: tuple[ConstantCode, ...] = ()
     fields: tuple[FieldCode, ...] = ()
     values: tuple[EnumeratorCode, ...] = ()
@@ -108,8 +108,7 @@ def type_code(declaration: Declaration, types: PythonTypes) -> TypeCode:
                 columns = tuple(_columns(element, types))
                 base = types.names[element]
                 return TypeCode("array", name, base, doc, (), is_hidden, columns=columns)
-            array = numpy_of(declaration)
-            base = array.alias if array else f"list[{types.declared(declaration.element)}]"
+            base = types.list_or_array(declaration)
             return TypeCode("alias", name, base, "", comments, is_hidden)
     raise TypeError(f"{declaration.qualified} is no type")
 
@@ -133,6 +132,7 @@ def _struct(
         type_id=literals.quoted(struct.type_id),
         definition=_definition(struct),
         rename=f"{{{', '.join(renamed)}}}" if renamed else "",
+        units=_units(struct),
         constants=tuple(_constants(struct, attributes)),
         fields=tuple(_field(attribute, field, struct, types) for attribute, field in pairs),
     )
@@ -142,6 +142,12 @@ def _definition(struct: Struct | ExceptionType) -> str:
     """The text of a ROS definition as a literal; "" if the fields say everything."""
     text = struct.definition if isinstance(struct, Struct) else ""
     return literals.python_string(text) if text else ""
+
+
+def _units(struct: Struct | ExceptionType) -> str:
+    """`{"name": unit}` of the fields; ROS hashes its types itself, without units."""
+    is_ros = isinstance(struct, Struct) and struct.ros_name
+    return literals.unit_table(() if is_ros else struct.fields)
 
 
 def _constants(struct: Struct | ExceptionType, attributes: Iterable[str]) -> Iterator[ConstantCode]:

@@ -122,7 +122,7 @@ def worker_code(component: Component, py_names: PythonNames, middleware: str) ->
         ),
         generic_imports=tuple(generic_imports(component, py_names)),
         specific_imports=tuple(specific_imports(py_names, py_names.package)),
-        examples=tuple(_example(p, py_names) for p in proxies if p.interface.operations),
+        examples=tuple(_example(p, py_names) for p in proxies if p.operations),
         about=("", *about) if (about := literals.lines(component.doc)) else (),
         rows=tuple(_row(p, py_names) for p in component.ports),
         machine=machine_of(component),
@@ -146,13 +146,13 @@ def _port(port: Port, py_names: PythonNames) -> PortCode:
         return PortCode(name, interface.proxy, "", attribute, middlewares)
     methods = ", ".join(
         f"{literals.quoted(o.name)}: {literals.quoted(py_names.handlers[port, o])}"
-        for o in port.interface.operations
+        for o in port.operations
     )
     return PortCode(name, interface.constant, f"{{{methods}}}", "", middlewares)
 
 
 def _served(port: Port, py_names: PythonNames) -> ServedCode:
-    handlers = tuple(handler_code(port, o, py_names) for o in port.interface.operations)
+    handlers = tuple(handler_code(port, o, py_names) for o in port.operations)
     return ServedCode(f"{port.role} {port.interface.qualified}", handlers)
 
 
@@ -173,7 +173,7 @@ def handler_code(port: Port, operation: Operation, py_names: PythonNames) -> Han
 
 def _example(port: Port, py_names: PythonNames) -> str:
     """An example call of the first operation, with zero values."""
-    operation = port.interface.operations[0]
+    operation = port.operations[0]
     method = py_names.interfaces[port.interface].methods[operation]
     arguments = ", ".join(py_names.types.zero(p.type).text for p in operation.inputs)
     results = [name or "result" for name, _ in py_names.types.results(operation)]
@@ -185,8 +185,8 @@ def _row(port: Port, py_names: PythonNames) -> tuple[str, str, str]:
     """One row of the port table in the README: port, description, methods."""
     if port in py_names.proxies:
         methods = py_names.interfaces[port.interface].methods
-        shown = [f"`self.{py_names.proxies[port]}.{m}`" for m in methods.values()]
+        shown = [f"`self.{py_names.proxies[port]}.{methods[o]}`" for o in port.operations]
     else:
-        shown = [f"`{py_names.handlers[port, o]}`" for o in port.interface.operations]
+        shown = [f"`{py_names.handlers[port, o]}`" for o in port.operations]
     what = f"{port.role} {literals.markdown_cell(port.interface.qualified)}"
     return literals.markdown_cell(port.name), what, ", ".join(shown)

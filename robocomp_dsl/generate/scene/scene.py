@@ -130,12 +130,12 @@ def _axes_boxes(node: innermodel.Axes, parent: innermodel.Node, taken: set[str])
 
 
 def _device(node: innermodel.Node, parent: innermodel.Node) -> Data:
-    """A device; its settings are the node's attributes without infinite values."""
+    """A device; its settings are the node's attributes without absent and infinite values."""
     settings = {
         field.name: value
         for field in fields(node)
         if field.name not in _NOT_SETTINGS
-        and not isinstance(value := getattr(node, field.name), tuple)
+        and not isinstance(value := getattr(node, field.name), tuple | None)
         and not (isinstance(value, float) and math.isinf(value))
     }
     frame = node.id if innermodel.is_frame(node) else parent.id

@@ -75,7 +75,7 @@ def simulator_code(
         package=py_names.package,
         doc=literals.docstring(component.doc, INNER, f"The simulator {component.name}."),
         imports=tuple(specific_imports(py_names)),
-        methods=tuple(_method(p, o, py_names) for p in served for o in p.interface.operations),
+        methods=tuple(_method(p, o, py_names) for p in served for o in p.operations),
         topics=tuple(
             _publications(
                 [topic for topic in topics if not topic.topic.immediate], proxies, publish_always

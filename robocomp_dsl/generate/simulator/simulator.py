@@ -36,6 +36,7 @@ from robocomp_dsl.generate.simulator.served_interfaces import (
     skin_rate,
 )
 from robocomp_dsl.generate.templates import render
+from robocomp_dsl.hardware.description.world_files import FileSearch
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.innermodel import InnerModel
 
@@ -83,10 +84,13 @@ class Simulator:
         return any(port.interface == BOARDS for port in self.ports)
 
 
-def simulator(body: InnerModel) -> Simulator:
-    """The simulator of a world. File names in the scene become absolute paths."""
+def simulator(body: InnerModel, files: Sequence[Path] = ()) -> Simulator:
+    """The simulator of a world; its meshes and pictures are searched in `files`, too.
+
+    File names in the scene become absolute paths.
+    """
     scene = lower_body(body)
-    resolve_files(scene, body.path.parent)
+    resolve_files(scene, FileSearch(body.path.parent, files))
     return _simulator(body.path, scene)
 
 

@@ -40,7 +40,7 @@ class Motion:
     home: float = 0.0
     offset: float = 0.0
     force: float = math.inf
-    gear: float = 1.0
+    gear: float = 100.0
     velocity: float = math.inf
 
 

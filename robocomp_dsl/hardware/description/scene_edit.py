@@ -25,6 +25,7 @@ class NodeErrorCode(Enum):
     EXISTS = "NodeAlreadyExists"
     ATTRIBUTE_EXISTS = "AttributeAlreadyExists"
     PATH = "InvalidPath"
+    ENGINE = "InvalidEngine"
     VALUES = "InvalidValues"
     WRONG_NODE = "OperationInvalidNode"
 

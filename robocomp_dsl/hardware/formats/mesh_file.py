@@ -1,7 +1,8 @@
-"""Mesh files: OBJ and STL with faces; only points of `.osg`, `.3ds` and `.dae`.
+"""Mesh files: the faces of OBJ, STL, `.3ds`, `.osg`, `.osgt` and PLY, and the points of `.dae`.
 
 In: a path. Out: points in the axes of the file, or in the frame of RoboComp's viewer, mirrored into
-RoboComp's axes; or `MeshError` with a message for the user.
+RoboComp's axes; or `MeshError` with a message for the user. `.ive` and `.osgb` need the program
+`osgconv` of OpenSceneGraph, PLY needs trimesh.
 """
 
 from __future__ import annotations
@@ -9,35 +10,30 @@ from __future__ import annotations
 import re
 import struct
 from collections.abc import Callable
-from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
 from xml.etree.ElementTree import ParseError
 
 import numpy as np
-from numpy.typing import NDArray
 
-from robocomp_dsl.hardware.devices.errors import HardwareError
 from robocomp_dsl.hardware.formats.collada import collada_points
+from robocomp_dsl.hardware.formats.mesh_3ds import read_3ds
+from robocomp_dsl.hardware.formats.mesh_osg import read_osg
+from robocomp_dsl.hardware.formats.mesh_ply import read_ply
+from robocomp_dsl.hardware.formats.osgconv import converted_to_stl
+from robocomp_dsl.hardware.formats.surface import NO_FACES, MeshError, Surface, checked_surface
 from robocomp_dsl.regular_file import read_bytes
 
 MAX_BYTES = 200 * 1024 * 1024
 
-_OSG_ARRAY = re.compile(r"VertexArray\s+\w*\s*\d*\s*\{([^}]*)\}")
-_3DS_GROUPS = {0x4D4D, 0x3D3D, 0x4000, 0x4100}
-_3DS_OBJECT, _3DS_POINTS = 0x4000, 0x4110
-
-
-class MeshError(HardwareError):
-    """The file contains no usable mesh."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Surface:
-    """`points` of shape (n, 3), in the units of the file; `faces` of shape (m, 3) or none."""
-
-    points: NDArray[np.float64]
-    faces: NDArray[np.int32]
+_CACHED = 64
+_POINTERS = {
+    b"version https://git-lfs.": "Git LFS has not fetched its content: run `git lfs pull`",
+    b"/annex/objects/": "git-annex has not fetched its content: run `git annex get`",
+    b"../.git/annex/": "git-annex has not fetched its content: run `git annex get`",
+}
+"""What tools of large files leave in place of a file."""
 
 
 def read_mesh(path: Path) -> Surface:
@@ -51,20 +47,49 @@ def read_mesh(path: Path) -> Surface:
 
 def read_surface(path: Path) -> Surface:
     """The mesh at `path` in the axes of the file, right-handed. Raises `MeshError`."""
-    read = _READERS.get(path.suffix.lower())
-    if read is None:
+    try:
+        status = path.stat()
+    except OSError as error:
+        raise MeshError(error.strerror or "the file cannot be read") from None
+    except ValueError as error:
+        raise MeshError(f"its path is invalid: {error}") from None
+    if status.st_size > MAX_BYTES:
+        raise MeshError(f"the file is larger than {MAX_BYTES // 1024 // 1024} MB")
+    result = _read(path, status.st_mtime_ns, status.st_size)
+    if isinstance(result, str):
+        raise MeshError(result)
+    return result
+
+
+@lru_cache(maxsize=_CACHED)
+def _read(path: Path, _modified: int, _size: int) -> Surface | str:
+    """The mesh, or why there is none; cached: worlds use a mesh often and are built again."""
+    try:
+        surface = _surface(path)
+    except MeshError as error:
+        return str(error)
+    surface.points.flags.writeable = False
+    surface.faces.flags.writeable = False
+    return surface
+
+
+def _surface(path: Path) -> Surface:
+    suffix = path.suffix.lower()
+    read = _READERS.get(suffix)
+    if read is None and suffix not in CONVERTED:
         raise MeshError(
             f"`{path.suffix}` files cannot be read; convert it to .obj or .stl"
             if path.suffix
             else "its suffix names no supported format"
         )
     try:
-        if path.stat().st_size > MAX_BYTES:
-            raise MeshError(f"the file is larger than {MAX_BYTES // 1024 // 1024} MB")
-        surface = read(read_bytes(path))
+        data = read_bytes(path)
+        if reason := next((text for key, text in _POINTERS.items() if key in data[:200]), ""):
+            raise MeshError(reason)
+        surface = read(data) if read else _stl(converted_to_stl(path))
     except OSError as error:
         raise MeshError(error.strerror or "the file cannot be read") from None
-    except (ValueError, IndexError, struct.error, ParseError) as error:
+    except (ValueError, IndexError, OverflowError, struct.error, ParseError) as error:
         raise MeshError(f"the file is damaged ({error})") from None
     if len(surface.points) == 0 or not np.isfinite(surface.points).all():
         raise MeshError("the file has no points" if len(surface.points) == 0 else "a point is NaN")
@@ -82,21 +107,14 @@ def _obj(data: bytes) -> Surface:
             corners = [int(word.split("/")[0]) for word in words[1:]]
             corners = [c - 1 if c > 0 else len(points) + c for c in corners]
             faces += [(corners[0], b, c) for b, c in pairwise(corners[1:])]
-    return _surface(points, faces)
+    vertices = np.array(points, dtype=np.float64).reshape(-1, 3)
+    return checked_surface(vertices, np.array(faces, dtype=np.int32).reshape(-1, 3))
 
 
 def _turned_up(surface: Surface) -> Surface:
     """OpenSceneGraph treats y of an OBJ file as up and turns it to z."""
     x, y, z = surface.points.T
     return Surface(np.stack([x, -z, y], axis=1), surface.faces)
-
-
-def _surface(points: list[list[float]], faces: list[tuple[int, int, int]]) -> Surface:
-    vertices = np.array(points, dtype=np.float64).reshape(-1, 3)
-    joined = np.array(faces, dtype=np.int32).reshape(-1, 3)
-    if len(joined) and (joined.min() < 0 or joined.max() >= len(vertices)):
-        raise ValueError("a face names a point that is not there")
-    return Surface(vertices, joined)
 
 
 def _stl(data: bytes) -> Surface:
@@ -111,40 +129,19 @@ def _stl(data: bytes) -> Surface:
     return Surface(points, index.reshape(-1, 3).astype(np.int32))
 
 
-def _osg(data: bytes) -> Surface:
-    text = data.decode("utf-8", "replace")
-    numbers = [float(word) for block in _OSG_ARRAY.findall(text) for word in block.split()]
-    return _surface(np.array(numbers).reshape(-1, 3).tolist(), [])
-
-
-def _3ds(data: bytes) -> Surface:
-    points: list[NDArray[np.float64]] = []
-    todo = [(0, len(data))]
-    while todo:
-        at, end = todo.pop()
-        while at + 6 <= end:
-            kind, size = struct.unpack_from("<HI", data, at)
-            inside, after = at + 6, min(at + max(size, 6), end)
-            if kind == _3DS_OBJECT:
-                inside = data.index(b"\0", inside) + 1  # the name of the object
-            if kind in _3DS_GROUPS:
-                todo.append((inside, after))
-            elif kind == _3DS_POINTS:
-                (count,) = struct.unpack_from("<H", data, inside)
-                found = np.frombuffer(data, "<f4", 3 * count, inside + 2)
-                points.append(found.reshape(-1, 3).astype(np.float64))
-            at = after
-    return Surface(np.concatenate(points or [np.empty((0, 3))]), np.empty((0, 3), np.int32))
-
-
 def _dae(data: bytes) -> Surface:
-    return Surface(collada_points(data), np.empty((0, 3), np.int32))
+    return Surface(collada_points(data), NO_FACES)
 
+
+CONVERTED = frozenset({".ive", ".osgb"})
+"""Formats that `osgconv` converts."""
 
 _READERS: dict[str, Callable[[bytes], Surface]] = {
     ".obj": _obj,
     ".stl": _stl,
-    ".osg": _osg,
-    ".3ds": _3ds,
+    ".osg": read_osg,
+    ".osgt": read_osg,
+    ".3ds": read_3ds,
     ".dae": _dae,
+    ".ply": read_ply,
 }

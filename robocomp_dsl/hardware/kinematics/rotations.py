@@ -70,24 +70,6 @@ def _opposite(angle: float) -> float:
     return angle - math.copysign(math.pi, angle)
 
 
-def smallest_angles(turned: Matrix) -> tuple[float, float, float]:
-    """The solution rx, ry, rz of a rotation matrix whose norm is smaller.
-
-    Each rotation has two: `angles`, with |ry| ≤ 90°, and (rx ± 180°, 180° - ry, rz ± 180°). With
-    the smaller one, what turns about y only has 0 for the other two up to 180° (RoboComp,
-    QMat::extractAnglesR_min).
-    """
-    first = angles(turned)
-    rx, ry, rz = first
-    other = (_opposite(rx), math.copysign(math.pi, ry) - ry, _opposite(rz))
-    return other if math.hypot(*other) < math.hypot(*first) - 1e-9 else first
-
-
-def _opposite(angle: float) -> float:
-    """The angle of the opposite direction, from -π to π."""
-    return angle - math.copysign(math.pi, angle)
-
-
 def inverse(pose: Matrix) -> Matrix:
     """The inverse of a rigid transform, shape (4, 4)."""
     inverted = np.eye(4)

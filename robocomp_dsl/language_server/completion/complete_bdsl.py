@@ -92,7 +92,7 @@ def _types(context: CompletionContext, modules: list[Module]) -> Iterator[Comple
         yield from declaration_candidates(modules, kinds, module=package)
         yield from _ros_services([m for m in modules if m.name == package], qualified=False)
     else:
-        yield from value_candidates(*types.PRIMITIVES)
+        yield from value_candidates(*(name for name in types.PRIMITIVES if name.isidentifier()))
         yield from declaration_candidates(modules, kinds)
         yield from _ros_services(modules, qualified=True)
 

@@ -28,9 +28,10 @@ ATTRIBUTE_MEANINGS: Mapping[str, str] = {
     "port": "port number of its server; from older files",
     "min": "lower end of the range",
     "max": "upper end of the range",
-    "home": "the home position, used by the command to go to zero",
+    "home": "where a joint starts, and where the command to go to zero sends it; default: its "
+    "angle about `axis`, or its `position`",
     "axis": "the axis of its own frame about or along which it moves",
-    "position": "the initial position of the slide",
+    "position": "the initial position of the slide; default: `home`",
     "offset": "added to the position of the slide",
     "noise": "standard deviation of its measurements or of its motion",
     "collide": "whether it collides with obstacles",

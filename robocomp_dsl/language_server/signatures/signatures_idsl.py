@@ -65,7 +65,8 @@ def _enumerator(value: types.Enumerator) -> str:
 
 
 def _sequence(sequence: types.Sequence) -> str:
-    head = f"sequence<{type_name(sequence.element)}> {sequence.qualified};"
+    bound = f", {sequence.bound}" if sequence.bound else ""
+    head = f"sequence<{type_name(sequence.element)}{bound}> {sequence.qualified};"
     if sequence.is_anonymous:
         return referenced_signature(sequence.element).lstrip()
     return head + referenced_signature(sequence.element)
@@ -105,7 +106,10 @@ def _shown(value: types.Literal) -> str:
 
 
 def _typed(type_: types.Type, name: str, unit: str) -> str:
-    return f"{type_name(type_)} {name}{f' [{unit}]' if unit else ''}"
+    suffix = f" [{unit}]" if unit else ""
+    if isinstance(type_, types.Sequence) and type_.is_anonymous and type_.size:
+        return f"{type_name(type_.element)} {name}[{type_.size}]{suffix}"
+    return f"{type_name(type_)} {name}{suffix}"
 
 
 def referenced_signature(type_: types.Type) -> str:

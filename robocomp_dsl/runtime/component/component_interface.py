@@ -33,7 +33,9 @@ class PortInfo(rt.Struct, type_id="RoboCompComponent::PortInfo"):
 Ports = list[PortInfo]
 
 
-class ComponentInfo(rt.Struct, type_id="RoboCompComponent::ComponentInfo"):
+class ComponentInfo(
+    rt.Struct, type_id="RoboCompComponent::ComponentInfo", units={"uptime": "s"}
+):
     """RoboCompComponent::ComponentInfo."""
 
     name: rt.String = ""  # The name of this instance.
@@ -69,7 +71,11 @@ class ParameterInfo(rt.Struct, type_id="RoboCompComponent::ParameterInfo"):
 ParameterList = list[ParameterInfo]
 
 
-class OperationStatistics(rt.Struct, type_id="RoboCompComponent::OperationStatistics"):
+class OperationStatistics(
+    rt.Struct,
+    type_id="RoboCompComponent::OperationStatistics",
+    units={"p50": "ms", "p90": "ms", "p99": "ms", "longest": "ms"},
+):
     """Statistics of one operation of one port. Percentiles are over the latest 512
     calls.
     """
@@ -92,7 +98,18 @@ class OperationStatistics(rt.Struct, type_id="RoboCompComponent::OperationStatis
 OperationList = list[OperationStatistics]
 
 
-class Statistics(rt.Struct, type_id="RoboCompComponent::Statistics"):
+class Statistics(
+    rt.Struct,
+    type_id="RoboCompComponent::Statistics",
+    units={
+        "period": "ms",
+        "periodP50": "ms",
+        "periodP99": "ms",
+        "jitter": "ms",
+        "computeP50": "ms",
+        "computeP99": "ms",
+    },
+):
     """RoboCompComponent::Statistics."""
 
     period: rt.Double = 0.0  # [ms] The configured period; 0: event-driven.

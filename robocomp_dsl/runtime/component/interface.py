@@ -43,6 +43,7 @@ class Operation:
     reply is None without outputs, the output itself if there is one, else a tuple. Encoders raise
     only `EncodeError`, decoders only `MalformedMessage`. `defaults` are the values of the last
     inputs that a caller of a Thrift service may leave out; generated proxies always send them.
+    `units` are those of parameters, by name.
     """
 
     def __init__(
@@ -56,6 +57,7 @@ class Operation:
         returns: object = None,
         idempotent: bool = False,
         defaults: Mapping[str, object] | None = None,
+        units: Mapping[str, str] | None = None,
     ) -> None:
         self.name = name
         self.pattern = pattern
@@ -65,12 +67,13 @@ class Operation:
         self.throws = throws
         self.idempotent = idempotent
         self.defaults = tuple((defaults or {}).values())
+        self.units = units or {}
 
     @property
     def shape(self) -> str:
-        """The canonical text that the type hash of the interface covers."""
+        """The canonical text that the type hash covers; peers with the same text understand it."""
         return operation_shape(
-            self.pattern.value, self.name, self.inputs, self.outputs, self.throws
+            self.pattern.value, self.name, self.inputs, self.outputs, self.throws, self.units
         )
 
     @cached_property
@@ -124,10 +127,20 @@ class Interface:
         """8 bytes that are equal for interfaces with the same canonical form.
 
         The canonical form has the names of the interface, its operations, parameters, fields and
-        enumerators, their wire types, and the patterns. Type names are excluded: a component that
-        uses two modules with types of the same name renames them.
+        enumerators, their wire types and units, and the patterns. Type names are excluded: a
+        component that uses two modules with types of the same name renames them.
         """
         return interface_hash(self.name, (operation.shape for operation in self.operations))
+
+    @property
+    def published(self) -> tuple[Operation, ...]:
+        """The operations of a topic: those without a reply."""
+        return tuple(o for o in self.operations if o.pattern is not Pattern.QUERY)
+
+    @cached_property
+    def shapes(self) -> dict[str, str]:
+        """The shape of each operation by name, in the order of `operations`."""
+        return {operation.name: operation.shape for operation in self.operations}
 
     @cached_property
     def _by_name(self) -> dict[str, Operation]:

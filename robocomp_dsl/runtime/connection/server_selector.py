@@ -19,7 +19,7 @@ from robocomp_dsl.runtime.connection.peer_selection import (
     matches,
     select_server,
 )
-from robocomp_dsl.runtime.errors import InterfaceMismatch, NoServer
+from robocomp_dsl.runtime.errors import NoServer
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.port_registry import PortRegistry
 
@@ -46,7 +46,7 @@ class ServerSelector:
     def find(self, seconds: float | None = None) -> PortRecord:
         """The current server, waiting at most `seconds` for it, by default the discovery timeout.
 
-        Raises `NoServer`, `AmbiguousServer` or `InterfaceMismatch`.
+        It may have another version of the interface. Raises `NoServer` or `AmbiguousServer`.
         """
         version = self._registry.version
         if self._server is not None and version == self._registry_version:
@@ -68,9 +68,7 @@ class ServerSelector:
             name = select_server(self.at, [record.name for record in found])
             server = next(record for record in found if record.name == name)
         self._connected_once = True
-        if server != self._server:
-            self._check_version(server)
-            self._server = server
+        self._server = server
         self._registry_version = version
         return server
 
@@ -134,13 +132,6 @@ class ServerSelector:
 
     def _is_nearest(self, record: PortRecord) -> bool:
         return self._matches(record) and discovery_complete(self.at, (record.component,))
-
-    def _check_version(self, server: PortRecord) -> None:
-        if server.hash and server.hash != self.at.interface.hash.hex():
-            raise InterfaceMismatch(
-                f"{self.at.component} and {server.component} were generated from different"
-                f" versions of {self.at.interface.name}; generate both from the same IDSL file"
-            )
 
     def wait(self, timeout: float) -> bool:
         """Wait up to `timeout` s for a server; returns whether there is one."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 from threading import get_ident
 from time import perf_counter_ns
 from typing import Any, TypeAlias
@@ -15,6 +16,11 @@ from typing import Any, TypeAlias
 from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.interface_version import (
+    PeerInterface,
+    is_other_version,
+    mismatch,
+)
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.connection.server_selector import ServerSelector
 from robocomp_dsl.runtime.errors import NoServer
@@ -23,6 +29,7 @@ from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.port_registry import PortRegistry
 
 Connect: TypeAlias = Callable[[Endpoint, PortRecord, float], ServiceClient]
+ShapesOf: TypeAlias = Callable[[PortRecord], dict[str, str] | None]
 DEFAULT_TIMEOUT_S = 10.0
 LOST_TIMEOUT_S = 0.5
 """The presence reports the end of a server at most so long after its connections broke."""
@@ -37,12 +44,15 @@ class ServiceChannel:
         registry: PortRegistry,
         selector: ServerSelector,
         connect: Connect,
+        shapes_of: ShapesOf,
     ) -> None:
         self._at = selector.at
         self._context = context
         self._registry = registry
         self._selector = selector
         self._connect = connect
+        self._shapes_of = shapes_of
+        self._version: PeerInterface | None = None
         self._timeout = DEFAULT_TIMEOUT_S
         self._lock = threading.Lock()
         self._server: PortRecord | None = None
@@ -166,7 +176,11 @@ class ServiceChannel:
     def _bind(
         self, operation: Operation, counts: OperationCounts, seconds: float | None = None
     ) -> BoundOperation:
-        """The operation of the current server. Raises what `ServerSelector.find` raises."""
+        """The operation of the current server.
+
+        Raises what `ServerSelector.find` raises, and `InterfaceMismatch` if the server has the
+        operation not, or otherwise.
+        """
         server = self._selector.find(seconds)
         with self._lock:
             if server != self._server or self._client is None:
@@ -175,6 +189,8 @@ class ServiceChannel:
             assert client is not None  # noqa: S101 - it has just been connected
             bound = self._bound.get(operation.name)
             if bound is None:
+                if self._version:
+                    self._version.check(operation, self._at, server)
                 bound = self._bound[operation.name] = client.bind(operation, counts)
             return bound
 
@@ -183,7 +199,14 @@ class ServiceChannel:
         self._bound.clear()
         if former:
             former.close()
-        client = self._connect(self._at, server, self._timeout)
+        at, self._version = self._at, None
+        if is_other_version(at, server):
+            shapes = self._shapes_of(server)
+            if shapes is None:
+                raise mismatch(at, server, "", "")
+            self._version = PeerInterface(at.interface, server, shapes)
+            at = replace(at, interface=self._version)
+        client = self._connect(at, server, self._timeout)
         self._client, self._server = client, server
         self._registry.on_lost(server, client.cancel)
 

@@ -168,9 +168,13 @@ def _member(type_: type[Enum], value: Any) -> Enum:
 def check_count(type_: Array | Sequence, count: int) -> None:
     """Raise `EncodeError` if a sequence of `count` elements has not the length of its type."""
     if type_.size and count != type_.size:
-        raise EncodeError(f"takes exactly {type_.size} elements, not {count}")
+        raise EncodeError(f"has {_values(count)}, it needs {type_.size}")
     if type_.bound and count > type_.bound:
-        raise EncodeError(f"takes at most {type_.bound} elements, not {count}")
+        raise EncodeError(f"has {_values(count)}, at most {type_.bound} are allowed")
+
+
+def _values(count: int) -> str:
+    return "1 value" if count == 1 else f"{count} values"
 
 
 def described(value: Any) -> str:

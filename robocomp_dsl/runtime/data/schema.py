@@ -74,6 +74,7 @@ class StructBase:
     __slots__ = ()
     _fields_: ClassVar[Fields]  # (name on the wire, type)
     _names_: ClassVar[tuple[str, ...]]  # the attributes, in the same order
+    _units_: ClassVar[Mapping[str, str]]  # name on the wire to unit
 
 
 class StructArrayBase:

@@ -54,8 +54,12 @@ class StructMeta(type):
         type_id: str = "",
         definition: str = "",
         rename: Mapping[str, str] | None = None,
+        units: Mapping[str, str] | None = None,
     ) -> StructMeta:
-        """A new class. `rename` maps attributes to field names of the IDSL file if they differ."""
+        """A new class. `rename` maps attributes to field names of the IDSL file if they differ.
+
+        `units` maps field names of the IDSL file to their units.
+        """
         if "_fields_" in namespace or any(hasattr(base, "_plain_") for base in bases):
             return super().__new__(cls, name, bases, namespace)  # a base, or a user's subclass
         annotations = _annotations(name, namespace)
@@ -63,6 +67,7 @@ class StructMeta(type):
         namespace |= {
             "_type_id_": type_id,
             "_definition_": definition,
+            "_units_": units or {},
             "_names_": names,
             "_fields_": tuple((wire.get(n, n), schema_of(t)) for n, t in annotations.items()),
             "_defaults_": {n: namespace.pop(n) for n in names if n in namespace},
@@ -107,11 +112,13 @@ class Struct(StructBase, metaclass=StructMeta):
     fields that differ between the IDSL file and Python. `type_id="RoboCompLaser::Beam"` is the name
     of the type in its IDSL file, for middlewares that send names of types; the type hash excludes
     it. `definition` is the text of a ROS definition with constants, which the md5 of ROS 1 covers.
+    `units={"x": "mm"}` has the units of fields, which the type hash covers.
     """
 
     __slots__ = ()
     _type_id_: ClassVar[str] = ""
     _definition_: ClassVar[str] = ""
+    _units_: ClassVar[Mapping[str, str]] = {}
     _fields_: ClassVar[Fields] = ()
     _names_: ClassVar[tuple[str, ...]] = ()
     _defaults_: ClassVar[dict[str, Any]] = {}
@@ -194,11 +201,7 @@ def _filled(type_: Type, items: _Items, constant: str, scope: dict[str, Any]) ->
 def _empty(type_: Type, constant: str, scope: dict[str, Any]) -> str:
     """An expression for a new empty object of `type_`."""
     if isinstance(type_, Sequence):
-        if not type_.size:
-            return "[]"
-        if isinstance(type_.element, Primitive):
-            return f'[""] * {type_.size}'
-        return f"[{_empty(type_.element, constant, scope)} for _ in range({type_.size})]"
+        return _empty_list(type_, constant, scope)
     if isinstance(type_, Dictionary):
         return "{}"
     if isinstance(type_, Array):
@@ -206,3 +209,20 @@ def _empty(type_: Type, constant: str, scope: dict[str, Any]) -> str:
         return f"_zeros({type_.size}, {constant})"
     scope[constant] = type_
     return f"{constant}()"
+
+
+def _empty_list(type_: Sequence, constant: str, scope: dict[str, Any]) -> str:
+    """An expression for a new list of as many elements as `type_` must have."""
+    if not type_.size:
+        return "[]"
+    if isinstance(type_.element, Primitive):
+        return f'[""] * {type_.size}'
+    if isinstance(type_.element, type) and issubclass(type_.element, Enum):
+        scope[constant] = _first(type_.element)
+        return f"[{constant}] * {type_.size}"
+    return f"[{_empty(type_.element, constant, scope)} for _ in range({type_.size})]"
+
+
+def _first(type_: type[Enum]) -> Enum:
+    """The enumerator 0, else the first."""
+    return next((member for member in type_ if not member), next(iter(type_)))

@@ -1,11 +1,12 @@
 """Canonical form and type hash of an interface. In: schema objects. Out: text, bytes.
 
-Two components with the same canonical form can communicate.
+Two components can call each other's operations that have the same canonical form, its shape.
+`shape_difference` reads shapes.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from robocomp_dsl.runtime.data.schema import (
     Array,
@@ -18,6 +19,8 @@ from robocomp_dsl.runtime.data.schema import (
     StructBase,
     Type,
 )
+
+NO_UNITS: Mapping[str, str] = {}
 
 
 def interface_hash(name: str, operations: Iterable[str]) -> bytes:
@@ -32,15 +35,21 @@ def interface_hash(name: str, operations: Iterable[str]) -> bytes:
 
 
 def operation_shape(
-    pattern: str, name: str, inputs: Fields, outputs: Fields, throws: Iterable[Type]
+    pattern: str,
+    name: str,
+    inputs: Fields,
+    outputs: Fields,
+    throws: Iterable[Type],
+    units: Mapping[str, str] = NO_UNITS,
 ) -> str:
-    """One line per operation, in alphabetical order, because their order is irrelevant."""
+    """One line: pattern, name, parameters with types and units, exceptions."""
     exceptions = ",".join(map(type_shape, throws))
-    return f"{pattern} {name}({_fields(inputs)})->({_fields(outputs)}) throws({exceptions})"
+    parameters = f"({_fields(inputs, units)})->({_fields(outputs, units)})"
+    return f"{pattern} {name}{parameters} throws({exceptions})"
 
 
 def type_shape(type_: Type) -> str:
-    """`struct{x:double,y:double}`, `sequence<int>` etc."""
+    """`struct{x:double[mm],y:double[mm]}`, `sequence<int>` etc."""
     match type_:
         case Primitive():
             return f"{type_.name}<{type_.bound}>" if type_.bound else type_.name
@@ -51,7 +60,7 @@ def type_shape(type_: Type) -> str:
     if issubclass(type_, StructArrayBase):
         return f"sequence<{type_shape(type_._element_)}>"
     if issubclass(type_, StructBase):
-        return f"struct{{{_fields(type_._fields_)}}}"
+        return f"struct{{{_fields(type_._fields_, type_._units_)}}}"
     return f"enum{{{_enumerators(type_)}}}"
 
 
@@ -62,8 +71,15 @@ def sequence_shape(type_: Array | Sequence, element: str) -> str:
     return f"sequence<{element},{type_.bound}>" if type_.bound else f"sequence<{element}>"
 
 
-def _fields(fields: Fields) -> str:
-    return ",".join(f"{name}:{type_shape(type_)}" for name, type_ in fields)
+def _fields(fields: Fields, units: Mapping[str, str]) -> str:
+    if not units:
+        return ",".join(f"{name}:{type_shape(type_)}" for name, type_ in fields)
+    texts = (f"{name}:{type_shape(type_)}{_unit(units.get(name))}" for name, type_ in fields)
+    return ",".join(texts)
+
+
+def _unit(unit: str | None) -> str:
+    return f"[{unit}]" if unit else ""
 
 
 def _enumerators(enum: type[Enum]) -> str:

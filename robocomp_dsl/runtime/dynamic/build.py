@@ -39,6 +39,8 @@ _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,199}")
 _QUALIFIED = re.compile(
     r"[A-Za-z_][A-Za-z0-9_]{0,199}(::[A-Za-z_][A-Za-z0-9_]{0,199}|(/[A-Za-z_][A-Za-z0-9_]{0,199}){2})?"
 )
+_BRACKETS = re.compile(r"[\[\]{}<>,\n]")
+_ROS_NAME = re.compile(r"\w+/\w+/\w+")
 _ZEROS = {"bool": False, "string": "", "float": 0.0, "double": 0.0}  # others: 0
 
 
@@ -114,7 +116,14 @@ class _TypeBuilder:
         for name, (_, type_), field in zip(names, pairs, info.fields, strict=True):
             members[name] = _default(type_, field, info.name)
         rename = {n: wire for n, (wire, _) in zip(names, pairs, strict=True) if n != wire}
-        cls: Any = StructMeta(_short(info.name), (base,), members, type_id=info.name, rename=rename)
+        cls: Any = StructMeta(
+            _short(info.name),
+            (base,),
+            members,
+            type_id=info.name,
+            rename=rename,
+            units=_units(info.fields, info.name),
+        )
         built: type[Struct] = cls
         return built
 
@@ -203,11 +212,21 @@ def _operation(info: OperationInfo, inside: str, types: _TypeBuilder) -> Operati
         tuple(throws),
         returns=types.type(first[0], full_name) if has_result else None,
         idempotent=info.idempotent,
+        units=_units((*info.inputs, *info.outputs), full_name),
     )
     leaves = sum(types.leaves(type_) for _, type_ in (*operation.inputs, *operation.outputs))
     if leaves > MAX_LEAVES:
         raise SchemaError(f"`{full_name}` has more than {MAX_LEAVES} fields")
     return operation
+
+
+def _units(infos: Iterable[FieldInfo], inside: str) -> dict[str, str]:
+    """The units of fields or parameters by name. ROS types have none in their shape."""
+    units = {info.name: info.unit for info in infos if info.unit}
+    for name, unit in units.items():
+        if _BRACKETS.search(unit):
+            raise SchemaError(f"field `{name}` of `{inside}`: `{unit:.40}` is not a unit")
+    return {} if _ROS_NAME.fullmatch(inside) else units
 
 
 def _check_name(name: str, form: re.Pattern[str], what: str) -> None:

@@ -80,11 +80,13 @@ class _TypeTable:
     def _struct(self, cls: type[Struct], texts: Any) -> TypeInfo:
         kind = "exception" if issubclass(cls, DeclaredError) else "struct"
         about = texts.get("fields", {})
+        is_ros = "/" in cls._type_id_  # the type hash covers the units of other types
         fields = [
             FieldInfo(
                 name,
                 self.expression(type_),
-                about.get(name, {}).get("unit", ""),
+                cls._units_.get(name, "")
+                or (about.get(name, {}).get("unit", "") if is_ros else ""),
                 about.get(name, {}).get("doc", ""),
                 _default(cls._defaults_.get(attribute)),
             )
@@ -138,7 +140,7 @@ def _operation(operation: Operation, texts: Any, types: _TypeTable) -> Operation
         operation.pattern.value,
         operation.idempotent,
         texts.get("doc", ""),
-        types.parameters(operation.inputs, texts.get("inputs", {})),
-        types.parameters(operation.outputs, texts.get("outputs", {})),
+        types.parameters(operation.inputs, operation.units),
+        types.parameters(operation.outputs, operation.units),
         [types.name(throw) for throw in operation.throws],
     )

@@ -7,12 +7,14 @@ ports on any middleware.
 from __future__ import annotations
 
 import contextlib
+import json
 from collections.abc import Callable
 from typing import Any
 from urllib.parse import unquote
 
 import zenoh
 
+from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.presence import keys
 from robocomp_dsl.runtime.presence.port_record import PortRecord
@@ -21,6 +23,8 @@ from robocomp_dsl.runtime.presence.sequence_format import SEQUENCE_FORMAT
 
 LATEST_TIMEOUT_S = 10.0
 """A latest message may be large; nobody waits for it."""
+SHAPES_TIMEOUT_S = 2.0
+"""A caller waits for it, once for each server with another version of its interface."""
 
 
 class HouseQueries:
@@ -31,6 +35,8 @@ class HouseQueries:
         self._domain = domain
         self._component = component
         self._heartbeat: Any = None
+        self._shapes: dict[str, bytes] = {}
+        self._tells_shapes = False
 
     def answer_probes(self) -> None:
         """See `Presence`."""
@@ -53,6 +59,35 @@ class HouseQueries:
 
         key = keys.heartbeat_key(self._domain, component)
         self._get(key, on_answer, timeout)
+
+    def offer_shapes(self, interface: Interface) -> None:
+        """See `Presence`."""
+        name, hash_ = interface.name, interface.hash.hex()
+        key = keys.shapes_key(self._domain, self._component, name, hash_)
+        self._shapes[key] = json.dumps(interface.shapes).encode()
+        if self._tells_shapes:
+            return
+        self._tells_shapes = True
+
+        def answer(query: zenoh.Query) -> None:
+            key = str(query.key_expr)
+            if shapes := self._shapes.get(key):
+                _reply(query, key, shapes)
+            query.drop()
+
+        reply = zenoh.handlers.Callback(answer, indirect=False)
+        self._session.declare_queryable(keys.shapes_key(self._domain, self._component), reply)
+
+    def shapes_of(self, peer: PortRecord) -> dict[str, str] | None:
+        """See `Presence`."""
+        key = keys.shapes_key(self._domain, peer.component, peer.interface, peer.hash)
+        try:
+            for reply in self._session.get(key, timeout=SHAPES_TIMEOUT_S):
+                if reply.ok is not None:
+                    return read_shapes(reply.ok.payload.to_bytes())
+        except zenoh.ZError:  # the session is closing
+            pass
+        return None
 
     def _get(self, key: str, on_answer: Callable[[zenoh.Reply], None], timeout: float) -> None:
         with contextlib.suppress(zenoh.ZError):  # the session is closing
@@ -103,6 +138,17 @@ class OfferedQueryable:
         """See `Closeable`."""
         with contextlib.suppress(zenoh.ZError):  # the session is closed
             self._queryable.undeclare()
+
+
+def read_shapes(data: bytes) -> dict[str, str] | None:
+    """The shapes that a peer tells; None if it tells anything else."""
+    try:
+        shapes = json.loads(data)
+    except (ValueError, RecursionError):
+        return None
+    if not isinstance(shapes, dict) or not all(isinstance(text, str) for text in shapes.values()):
+        return None
+    return shapes
 
 
 def _reply(query: zenoh.Query, key: str, payload: bytes, attachment: bytes = b"") -> None:

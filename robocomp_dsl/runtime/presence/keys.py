@@ -10,9 +10,11 @@
     rc/<domain>/n/<interface>/<hash>/<component>/<port>/<operation>  number of publications so far
     rc/<domain>/l/<interface>/<hash>/<component>/<port>/<operation>  latest message of a topic
     rc/<domain>/h/<component>                                        sign of life of a component
+    rc/<domain>/i/<component>/<interface>/<hash>                     shapes of its operations
 
 The hash is the type hash of the interface: messages of another version are not routed to a port,
-and the tokens let both sides detect the difference. Every publication has an attachment with a
+and the tokens let both sides detect the difference. A caller uses the hash of its server for the
+operations that have the same shape on both sides. Every publication has an attachment with a
 sequence number (`sequence.SEQUENCE_FORMAT`), from which a subscriber computes its losses.
 """
 
@@ -54,6 +56,12 @@ def port_key(domain: str, kind: Kind, at: Endpoint) -> str:
 def heartbeat_key(domain: str, component: str) -> str:
     """The key at which a component answers that it is alive."""
     return f"{domain_prefix(domain)}/h/{escape_chunk(component)}"
+
+
+def shapes_key(domain: str, component: str, interface: str = "", hash_: str = "") -> str:
+    """The key at which a component tells the shapes of an interface; of all if it is empty."""
+    root = f"{domain_prefix(domain)}/i/{escape_chunk(component)}"
+    return f"{root}/{escape_chunk(interface)}/{hash_}" if interface else f"{root}/*/*"
 
 
 def publisher_of(key: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple, Protocol, TypeAlias
 
+from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.port_registry import PortRegistry
@@ -84,6 +85,12 @@ class Presence(Protocol):
         self, at: Endpoint, publisher: PortRecord, on_message: Callable[[LatestMessage], None]
     ) -> None:
         """Ask a publisher of `at` for its latest messages; `on_message` is called in any thread."""
+
+    def offer_shapes(self, interface: Interface) -> None:
+        """Let peers with another version of `interface` ask for the shapes of its operations."""
+
+    def shapes_of(self, peer: PortRecord) -> dict[str, str] | None:
+        """The shapes of the operations of a peer's port, by name; None if it does not tell."""
 
     def interrupt(self) -> None:
         """Wake all waiting threads; ports count as lost from now on."""

@@ -9,6 +9,7 @@ import threading
 from collections.abc import Callable
 from itertools import count
 
+from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.port_registry import PortRegistry
@@ -23,6 +24,7 @@ class _Domain:
         self.records: dict[str, PortRecord] = {}
         self.registries: list[PortRegistry] = []
         self.latest: dict[tuple[str, str], LatestMessages] = {}
+        self.shapes: dict[tuple[str, str], dict[str, str]] = {}
 
 
 _domains: dict[str, _Domain] = {}
@@ -99,6 +101,14 @@ class ProcessPresence:
         latest = self._domain.latest.get((at.interface.name, publisher.name))
         for message in latest() if latest else ():
             on_message(message)
+
+    def offer_shapes(self, interface: Interface) -> None:
+        """See `Presence`."""
+        self._domain.shapes[interface.name, interface.hash.hex()] = interface.shapes
+
+    def shapes_of(self, peer: PortRecord) -> dict[str, str] | None:
+        """See `Presence`."""
+        return self._domain.shapes.get((peer.interface, peer.hash))
 
     def interrupt(self) -> None:
         """See `Presence`."""

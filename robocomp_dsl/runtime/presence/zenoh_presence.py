@@ -48,6 +48,8 @@ class ZenohPresence:
         self.probe = self._queries.probe
         self.offer_latest = self._queries.offer_latest
         self.fetch_latest = self._queries.fetch_latest
+        self.offer_shapes = self._queries.offer_shapes
+        self.shapes_of = self._queries.shapes_of
         if opened.routers:
             self.registry.has_router = True
             opened.routers.on_outage(self.registry.set_outage)

@@ -4,7 +4,7 @@
 from robocomp_dsl.runtime import types as rt
 
 
-class Tick(rt.Struct, type_id="RoboCompClock::Tick"):
+class Tick(rt.Struct, type_id="RoboCompClock::Tick", units={"time": "ns"}):
     """RoboCompClock::Tick."""
 
     time: rt.Long = 0  # [ns] Simulated time: 0 at the start and after a reset.
@@ -31,7 +31,7 @@ class Hearer(rt.Struct, type_id="RoboCompLockStep::Hearer"):
 Hearers = list[Hearer]
 
 
-class Due(rt.Struct, type_id="RoboCompLockStep::Due"):
+class Due(rt.Struct, type_id="RoboCompLockStep::Due", units={"time": "ns"}):
     """RoboCompLockStep::Due."""
 
     time: rt.Long = 0  # [ns] Time of the next scheduled work; -1: none is known.

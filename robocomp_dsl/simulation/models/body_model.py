@@ -21,6 +21,9 @@ from robocomp_dsl.tactile.description.model import Limb, RobotDescription
 from robocomp_dsl.tactile.description.yaml_reader import UNITS
 
 _KEY = "start"
+_POSES = 12
+_CONSTANT = 1e-6
+_FAR = 1.0
 
 
 class BodyModel:
@@ -123,8 +126,8 @@ class BodyModel:
     def _relevant_pairs(self) -> Ints:
         """Pairs (k, 2) of a geom of the arm and one of the rest of the robot that may touch.
 
-        Pairs that the model excludes, bodies that a joint connects, and pairs that overlap in the
-        start pose are left out: their geometry is no sign of contact.
+        Pairs that the model excludes, bodies that a joint connects, pairs that overlap in the start
+        pose, and pairs whose distance is constant are left out: they are no sign of contact.
         """
         model = self.model
         arm = self._arm_bodies()
@@ -138,7 +141,7 @@ class BodyModel:
         ]
         excluded = {(int(s) >> 16, int(s) & 0xFFFF) for s in model.exclude_signature}
         self.set_pose(self.part.start)
-        segment, pairs = np.zeros(6), []
+        pairs = []
         for a in solid:
             first = int(model.geom_bodyid[a])
             if first not in arm:
@@ -150,9 +153,25 @@ class BodyModel:
                 names = {(first, second), (second, first)}
                 if names & excluded or self._connected(first, second):
                     continue
-                if mujoco.mj_geomDistance(model, self.data, a, b, 1.0, segment) > 0.0:
+                if self._distance(a, b) > 0.0:
                     pairs.append((a, b))
-        return np.array(pairs, np.int64).reshape(-1, 2)
+        return self._moving_pairs(np.array(pairs, np.int64).reshape(-1, 2))
+
+    def _moving_pairs(self, pairs: Ints) -> Ints:
+        """Those pairs (k, 2) whose distance depends on the pose."""
+        low, high = self._mapping.limits
+        rng = np.random.default_rng(0)
+        distances = []
+        for _ in range(_POSES):
+            self.set_pose(rng.uniform(low, high))
+            distances.append([self._distance(a, b) for a, b in pairs.tolist()])
+        moving = np.ptp(np.array(distances), axis=0) > _CONSTANT
+        chosen: Ints = pairs[moving]
+        return chosen
+
+    def _distance(self, first: int, second: int) -> float:
+        segment = np.zeros(6)
+        return float(mujoco.mj_geomDistance(self.model, self.data, first, second, _FAR, segment))
 
     def _separable(self, a: int, b: int) -> bool:
         """Whether two geoms of the arm move against each other; each pair is taken once."""

@@ -19,6 +19,7 @@ from robocomp_dsl.hardware.description.scene import ROOT, Frame, Motion, Triple
 from robocomp_dsl.hardware.devices.errors import require_finite
 from robocomp_dsl.hardware.kinematics.rotations import Matrix, angles, inverse
 from robocomp_dsl.hardware.kinematics.transforms import TransformTree
+from robocomp_dsl.simulation.models.mesh_marker import is_marker
 from robocomp_dsl.simulation.scene import axes
 
 _JOINT = mujoco.mjtJoint
@@ -84,7 +85,7 @@ class _Builder:
 
     def _site(self, i: int, bodies: Sequence[str]) -> str:
         name = self.model.site(i).name
-        if not name:
+        if not name or is_marker(name):
             return ""
         pose = _pose(self.model.site_pos[i], self.model.site_quat[i])
         return self._fixed(self._free(name), bodies[self.model.site_bodyid[i]], pose)

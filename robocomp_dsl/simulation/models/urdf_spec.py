@@ -116,7 +116,11 @@ class _Builder:
                 geom |= {"type": kind, "size": [shape.size[0], shape.size[1] / 2, 0]}
             case _:
                 file = resolve(shape.file, self.path, self.packages)
-                geom |= self.meshes.geom(file, shape.size, link.name, shape.line)
+                settings_of_mesh = self.meshes.geom(file, shape.size, link.name, shape.line)
+                if settings_of_mesh is None:
+                    self.meshes.mark(body, file, np.array(shape.pose.xyz))
+                    return
+                geom |= settings_of_mesh
                 shift = geom.pop("shift")
         place = np.array(shape.pose.xyz) + turn @ shift
         body.add_geom(pos=place, quat=quaternion(turn), density=0.0, **geom, **settings)

@@ -21,6 +21,7 @@ SUPPLY = 24.0
 """Supply of all motors [V]."""
 
 GEAR = 100.0
+"""Turns of a motor per turn of its joint, unless a description has its own."""
 
 NAO_ARM = ("ShoulderPitch", "ShoulderRoll", "ElbowYaw", "ElbowRoll", "WristYaw", "Hand")
 NAO_LEG = ("HipYawPitch", "HipRoll", "HipPitch", "KneePitch", "AnklePitch", "AnkleRoll")

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
 from robocomp_dsl.hardware.description.falling import carrier
 from robocomp_dsl.hardware.description.scene import ROOT, Device, Frame, Scene
+from robocomp_dsl.hardware.description.scene_edit import FIXED
 from robocomp_dsl.hardware.devices.camera import CameraSettings
 from robocomp_dsl.hardware.devices.errors import SceneError
 from robocomp_dsl.hardware.devices.laser import LaserSettings
@@ -27,7 +28,7 @@ from robocomp_dsl.simulation.devices.laser import Laser, LaserMount
 from robocomp_dsl.simulation.devices.mobile_base import MobileBase
 from robocomp_dsl.simulation.devices.range_finder import RangeFinder
 from robocomp_dsl.simulation.devices.screen import Screen
-from robocomp_dsl.simulation.devices.touch_sensor import TouchSensor, TouchSettings
+from robocomp_dsl.simulation.devices.touch_sensor import TouchSensor, TouchSettings, feels
 from robocomp_dsl.simulation.devices.ultrasound import Ultrasound
 from robocomp_dsl.simulation.models.model_touch import ModelTouch
 from robocomp_dsl.simulation.scene.axes import MM
@@ -45,8 +46,12 @@ class DeviceContext:
     board: JointBoard | None = None
 
     def carrier(self, frame: str) -> str:
-        """The nearest base or falling frame from `frame` upwards; else `frame`."""
-        return frame if frame == ROOT else carrier(frame, self.frames)
+        """The nearest base or falling frame from `frame` upwards; else `frame`.
+
+        The room is not a carrier: it is the root.
+        """
+        found = frame if frame == ROOT else carrier(frame, self.frames)
+        return ROOT if found in FIXED else found
 
 
 def _laser(site: DeviceContext, device: Device) -> Laser:
@@ -195,12 +200,43 @@ SINGLE: Mapping[str, Callable[[DeviceContext, Device], Any]] = {
 """Kinds of devices that are simulated one by one."""
 
 
+def without_blind_sensors(scene: Scene, spec: Any, notes: list[str]) -> Scene:
+    """The scene without touch sensors that could never feel anything.
+
+    Their shapes are meshes that cannot be read: those touch nothing.
+    """
+    blind = [
+        device
+        for device in scene.devices
+        if device.kind == "touchsensor" and not feels(spec, body_name(device.frame))
+    ]
+    feeling = tuple(device for device in scene.devices if device not in blind)
+    notes += [f"`{device.id}` is left out: no shape in it collides" for device in blind]
+    return replace(scene, devices=feeling) if blind else scene
+
+
 def place_cameras(scene: Scene, spec: Any) -> None:
     """Add the cameras of a scene to its specification, for a viewer: they take no pictures."""
     site = DeviceContext({frame.id: frame for frame in scene.frames}, NoiseLevel())
     for device in scene.devices:
         if device.kind in {"camera", "rgbd"}:
             _camera(site, device).place(spec)
+
+
+def unmoved(before: Scene, after: Scene, devices: Mapping[str, Any]) -> dict[str, Any]:
+    """The parts of the world that fit another scene: not those that are mounted elsewhere there."""
+    known, now = _mounts(before), _mounts(after)
+    return {id_: part for id_, part in devices.items() if known.get(id_) == now.get(id_)}
+
+
+def _mounts(scene: Scene) -> dict[str, tuple[Device, str]]:
+    """Each device that is simulated by itself, and the frame that carries it."""
+    site = DeviceContext({frame.id: frame for frame in scene.frames}, NoiseLevel())
+    return {
+        device.id: (device, site.carrier(device.frame))
+        for device in scene.devices
+        if device.kind in SINGLE
+    }
 
 
 def build_devices(

@@ -51,7 +51,7 @@ class DrivenJoint:
     force: float
     home: float
     armature: float
-    gear: float = 1.0
+    gear: float = GEAR
     group: str = ""
     joint: str = ""
 
@@ -191,7 +191,7 @@ def _of_frame(frame: Frame, motion: Motion) -> DrivenJoint:
         speed = SPEED[motion.kind]
     if not 0 < force < math.inf:
         force = FORCE[motion.kind]
-    home, gear = motion.home * unit, motion.gear if motion.gear > 0 else 1.0
+    home, gear = motion.home * unit, motion.gear if motion.gear > 0 else GEAR
     return DrivenJoint(frame.id, motion.kind, low, high, speed, force, home, _INERTIA * force, gear)
 
 
@@ -207,11 +207,10 @@ def _motor(joint: DrivenJoint) -> MotorSpec:
     """
     per_amp = SUPPLY / (2.0 * joint.speed)  # joint torque per ampere, limited by back EMF
     current = joint.force / per_amp
-    gear = joint.gear * GEAR
     return MotorSpec(
         joint.own,
-        gear=gear,
-        torque_constant=per_amp / gear,
+        gear=joint.gear,
+        torque_constant=per_amp / joint.gear,
         resistance=SUPPLY / (3.0 * current),
         supply=SUPPLY,
         max_current=6.0 * current,

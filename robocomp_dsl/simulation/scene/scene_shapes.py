@@ -1,7 +1,7 @@
 """The shapes of a scene as geoms of MuJoCo.
 
-In: a body of an `MjSpec` and a shape. Out: a geom on the body, massless, and a note on deviations
-from the description.
+In: a body of an `MjSpec` and a shape. Out: a geom on the body, massless, or a marker; and a note on
+deviations from the description. A file that does not exist gives no note: `world_files` has those.
 """
 
 from __future__ import annotations
@@ -14,11 +14,14 @@ import mujoco
 import numpy as np
 
 from robocomp_dsl.hardware.description.scene import Box, Mesh, Triple
-from robocomp_dsl.hardware.formats.mesh_file import MeshError, Surface, read_mesh
+from robocomp_dsl.hardware.description.world_files import exists
+from robocomp_dsl.hardware.formats.mesh_file import read_mesh
 from robocomp_dsl.hardware.formats.picture_file import PictureError, read_picture
+from robocomp_dsl.hardware.formats.surface import MeshError, Surface, scaled, used_part
 from robocomp_dsl.hardware.kinematics.rotations import Matrix, rotation
 from robocomp_dsl.simulation.devices.screen import add_screen
-from robocomp_dsl.simulation.models.mesh_geom import is_flat
+from robocomp_dsl.simulation.models.mesh_geom import bounding_box_reason, is_flat
+from robocomp_dsl.simulation.models.mesh_marker import add_marker
 from robocomp_dsl.simulation.scene import axes
 from robocomp_dsl.simulation.scene.axes import MM
 from robocomp_dsl.simulation.scene.textures import add_material
@@ -27,7 +30,6 @@ _THINNEST = 1e-6  # m: MuJoCo geoms need a thickness
 _SMALLEST = 1e-5  # m: MuJoCo rejects meshes of almost no area
 _LARGEST = 1e6  # m
 _GREY = (0.7, 0.7, 0.7, 1.0)
-_PLACEHOLDER = (0.9, 0.4, 0.2, 0.4)
 _GEOM = mujoco.mjtGeom
 _UPRIGHT = rotation(math.pi / 2, 0.0, 0.0)
 """Turns y to z: MuJoCo's third axis, which is y here, along a plane's thickness."""
@@ -65,7 +67,8 @@ def _material(spec: Any, box: Box, size: tuple[float, float], notes: list[str]) 
             return add_material(spec, Path(box.texture), box.tile * MM)
         shown = read_picture(Path(box.texture)) if box.texture else None
     except PictureError as error:
-        notes.append(f"`{box.id}` has no picture: {box.texture}: {error}")
+        if exists(Path(box.texture)):
+            notes.append(f"`{box.id}` has no picture: {box.texture}: {error}")
         if not box.screen:
             return ""
         shown = None
@@ -92,23 +95,23 @@ def rotation_to_normal(normal: Triple) -> Matrix:
     return quat
 
 
-def add_mesh(spec: Any, body: Any, mesh: Mesh, notes: list[str]) -> None:
-    """Add a mesh to `body`, or a placeholder box if it cannot be read."""
+def add_mesh(spec: Any, body: Any, mesh: Mesh) -> str:
+    """Add a mesh to `body`, or a marker if it cannot be read.
+
+    Returns how the mesh deviates from its file; empty if it does not, or if there is no such file.
+    """
     placed = {
         "name": mesh.id,
         "pos": axes.point(*mesh.place),
         "quat": axes.quaternion(rotation(*mesh.turn)),
     }
     try:
-        surface = read_mesh(Path(mesh.file))
-        points = _scaled(surface, mesh.scale)
+        whole = scaled(read_mesh(Path(mesh.file)), mesh.scale, _LARGEST / MM)
     except MeshError as error:
-        notes.append(f"the mesh `{mesh.id}` ({mesh.file}) is a box: {error}")
-        half = _sized(mesh.scale, mesh.id, notes)
-        body.add_geom(
-            type=_GEOM.mjGEOM_BOX, size=half, rgba=_PLACEHOLDER, **placed, **_touch(False)
-        )
-        return
+        add_marker(body, mesh.id, axes.point(*mesh.place))
+        return f"a small marker: {error}" if not mesh.file or exists(Path(mesh.file)) else ""
+    surface = used_part(whole)
+    points = surface.points
     low, high = points.min(axis=0), points.max(axis=0)
     if len(surface.faces) and not is_flat(points) and (high - low).max() * MM > _SMALLEST:
         asset = spec.add_mesh(
@@ -124,21 +127,12 @@ def add_mesh(spec: Any, body: Any, mesh: Mesh, notes: list[str]) -> None:
             **placed,
             **_touch(mesh.collide),
         )
-        return
-    if not len(surface.faces):
-        notes.append(f"the mesh `{mesh.id}` ({mesh.file}) is its bounding box; convert it to .obj")
+        return ""
     centre = rotation(*mesh.turn) @ ((low + high) / 2) + mesh.place
     placed["pos"] = axes.point(*centre)
     half = _half(tuple((high - low).tolist()))
     body.add_geom(type=_GEOM.mjGEOM_BOX, size=half, rgba=_GREY, **placed, **_touch(mesh.collide))
-
-
-def _scaled(surface: Surface, scale: Triple) -> Matrix:
-    with np.errstate(all="ignore"):
-        points: Matrix = surface.points * scale
-    if not (np.abs(points) * MM <= _LARGEST).all():
-        raise MeshError(f"no world holds it with the scale {', '.join(f'{s:g}' for s in scale)}")
-    return points
+    return "" if len(surface.faces) else bounding_box_reason(whole)
 
 
 def _outside(surface: Surface, scale: Triple) -> Any:

@@ -9,13 +9,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import mujoco
 import numpy as np
 
 from robocomp_dsl.hardware.description.falling import falls, loads
-from robocomp_dsl.hardware.description.scene import ROOT, Frame, Model, Motion, Scene, Triple
+from robocomp_dsl.hardware.description.scene import (
+    ROOT,
+    Frame,
+    Mesh,
+    Model,
+    Motion,
+    Scene,
+    Triple,
+)
 from robocomp_dsl.hardware.devices.errors import SceneError
 from robocomp_dsl.hardware.kinematics.rotations import Matrix, pose_rows, rotation
 from robocomp_dsl.simulation.models.start_spec import reload_spec
@@ -25,6 +34,7 @@ from robocomp_dsl.simulation.scene.scene_shapes import add_box, add_mesh
 from robocomp_dsl.simulation.world.arena import reserve_arena
 
 _LIGHTEST = 1e-3  # kg: default mass of a moving frame
+_MOST_NAMED = 4
 _UNIT: dict[str, Triple] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
@@ -49,12 +59,30 @@ def build_spec(scene: Scene) -> tuple[Any, list[str]]:
                 bodies[frame.id] = _add_frame(into, frame, notes)
         for box in scene.boxes:
             add_box(spec, bodies[box.frame], box, notes)
+        deviating: dict[str, list[Mesh]] = {}
         for mesh in scene.meshes:
-            add_mesh(spec, bodies[mesh.frame], mesh, notes)
+            if deviation := add_mesh(spec, bodies[mesh.frame], mesh):
+                deviating.setdefault(deviation, []).append(mesh)
+        notes += (_mesh_note(meshes, text) for text, meshes in deviating.items())
     except ValueError as error:
         raise SceneError(f"MuJoCo cannot build the world: {error}") from None
     reserve_arena(spec, len(bodies))
     return spec, notes
+
+
+def _mesh_note(meshes: list[Mesh], deviation: str) -> str:
+    """One note for all meshes with the same deviation."""
+    first: dict[str, str] = {}
+    for mesh in meshes:
+        first.setdefault(mesh.file, mesh.id)
+    named = [f"`{id_}` ({Path(file).name})" for file, id_ in first.items()]
+    more = f" and {len(named) - _MOST_NAMED} more" if len(named) > _MOST_NAMED else ""
+    which = f"{', '.join(named[:_MOST_NAMED])}{more}"
+    return (
+        f"the mesh {which} is {deviation}"
+        if len(named) == 1
+        else (f"{len(named)} meshes, {which}, are each {deviation}")
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,6 +29,7 @@ from robocomp_dsl.hardware.description.scene_edit import (
     replace_box,
     rescale_node,
 )
+from robocomp_dsl.hardware.description.world_files import FileSearch
 from robocomp_dsl.hardware.devices.errors import (
     CommandRefused,
     FrameError,
@@ -36,7 +37,8 @@ from robocomp_dsl.hardware.devices.errors import (
     SceneError,
     require_finite,
 )
-from robocomp_dsl.hardware.formats.mesh_file import MeshError, read_mesh
+from robocomp_dsl.hardware.formats.mesh_file import read_mesh
+from robocomp_dsl.hardware.formats.surface import MeshError
 from robocomp_dsl.hardware.servants.servant import Servant
 from robocomp_dsl.simulation.world import nodes
 
@@ -97,6 +99,9 @@ class InnerModelServant(Servant):
 
     def addTransform(self, item: str, engine: str, base: str, pose: Any) -> bool:
         """Add a frame; with the engine `bullet` it falls, unless a frame above it moves."""
+        if engine not in {"", "static", "bullet"}:
+            message = f"there is no engine `{engine}`: static or bullet"
+            raise NodeError(NodeErrorCode.ENGINE, message)
         physics = engine == "bullet"
         place, turn = _pose(pose)
         frame = Frame(item, base, place, turn, physics=physics, mass=_FALLING if physics else 0.0)
@@ -111,17 +116,18 @@ class InnerModelServant(Servant):
             raise NodeError(NodeErrorCode.VALUES, "a limit is no number")
         require_finite(mass=j.mass)
         place, turn = _pose(j.pose)
-        motion = Motion("hinge", axis, j.min, j.max)
+        motion = Motion("hinge", axis, j.min, j.max, home=turn["xyz".index(axis)])
         frame = Frame(item, base, place, turn, motion, mass=max(j.mass, 0.0))
         return self._rebuild(add_frame(self._scene, frame))
 
     def addMesh(self, item: str, base: str, m: Any) -> bool:
-        """Add a mesh from a readable file."""
+        """Add a mesh from a readable file, which is also searched in ROBOCOMP_FILES."""
         scale = _scale(m.scaleX, m.scaleY, m.scaleZ)
         place, turn = _pose(m.pose)
-        scene = add_mesh(self._scene, Mesh(item, base, m.meshPath, place, turn, scale))
+        file = FileSearch(Path()).find(Path(m.meshPath))
+        scene = add_mesh(self._scene, Mesh(item, base, str(file), place, turn, scale))
         try:
-            read_mesh(Path(m.meshPath))
+            read_mesh(file)
         except MeshError as error:
             raise NodeError(NodeErrorCode.PATH, f"`{m.meshPath}`: {error}") from None
         return self._rebuild(scene)

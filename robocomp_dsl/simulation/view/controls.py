@@ -202,7 +202,14 @@ class Controls:
     def place(self, body: int, position: Any, quat: Any) -> None:
         """Set the pose of a body in its parent; a free body is moved by its joint."""
         if self._remote:
-            self._remote.place(self.stage.names[body], np.asarray(position), np.asarray(quat))
+            above = int(self.model.body_parentid[body])
+            names = self.stage.names
+            self._remote.place(
+                names[body],
+                names[above] if above else "",
+                np.asarray(position),
+                np.asarray(quat),
+            )
             return
         self.model.body_pos[body], self.model.body_quat[body] = position, quat
         first = int(self.model.body_jntadr[body])

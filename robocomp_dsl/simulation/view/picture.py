@@ -18,6 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robocomp_dsl.hardware.devices.errors import NoRendering
+from robocomp_dsl.simulation.models.mesh_marker import (
+    MARKER_COLOUR,
+    marked_meshes,
+    marker_size,
+)
 from robocomp_dsl.simulation.view.offscreen import new_context
 
 Pixels = NDArray[np.uint8]
@@ -30,6 +35,8 @@ SCREEN = ".screen"
 """Suffix of the names of textures that change at run time."""
 _SKY = 0.4
 """Share of the far plane's distance: the sky box is not nearer, scenes are much smaller."""
+_LEAST_MARGIN = 0.1  # m
+_LONGEST_LABEL = 99
 DEFAULT_SIZE = (1280, 960)
 LARGEST = 8192
 """Maximum pixels per side."""
@@ -71,6 +78,7 @@ class Renderer:
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
         most = min(_MOST_GEOMS, 1000 + 8 * model.ngeom + model.nsite)
         self._scene = mujoco.MjvScene(model, maxgeom=most)
+        self._markers = marked_meshes(model)
         self._screens = {i: _checksum(model, i) for i in range(model.ntex) if _is_screen(model, i)}
 
     def __enter__(self) -> Self:
@@ -95,12 +103,33 @@ class Renderer:
             option.flags[flag] = look.contacts
         everything = mujoco.mjtCatBit.mjCAT_ALL
         mujoco.mjv_updateScene(self.model, data, option, None, camera, everything, self._scene)
+        if not look.camera:
+            self._mark(data, look.names)
         self._refresh()
         view = mujoco.MjrRect(0, 0, self.width, self.height)
         mujoco.mjr_render(view, self._scene, self._context)
         pixels = np.empty((self.height, self.width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(pixels, None, view, self._context)
         return pixels[::-1]
+
+    def _mark(self, data: Any, names: bool) -> None:
+        """Draw the markers of missing meshes, at least at a visible size."""
+        low, high = scene_extent(self.model, data)
+        size = marker_size(float(np.linalg.norm(high - low)))
+        for site, name in self._markers.items():
+            if self._scene.ngeom >= self._scene.maxgeom:
+                return
+            drawn = self._scene.geoms[self._scene.ngeom]
+            mujoco.mjv_initGeom(
+                drawn,
+                mujoco.mjtGeom.mjGEOM_BOX,
+                np.full(3, size / 2),
+                data.site_xpos[site],
+                data.site_xmat[site],
+                np.array(MARKER_COLOUR, np.float32),
+            )
+            drawn.label = name[:_LONGEST_LABEL] if names else ""
+            self._scene.ngeom += 1
 
     def _refresh(self) -> None:
         """Update the textures of screens whose image has changed."""
@@ -176,14 +205,27 @@ def _checksum(model: Any, texture: int) -> int:
 
 
 def scene_extent(model: Any, data: Any) -> tuple[Floats, Floats]:
-    """The corners of the bounding box of all shapes but planes; of the frames if there are none."""
-    if not model.ngeom or (model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE).all():
-        return data.xpos.min(axis=0) - 0.5, data.xpos.max(axis=0) + 0.5
-    real = np.flatnonzero(model.geom_type != mujoco.mjtGeom.mjGEOM_PLANE)
+    """The corners of the bounding box of all visible shapes but planes.
+
+    The marker of a missing mesh counts as a point, and only if it is not farther from the shapes
+    than these are large. Without shapes it is the box of the markers, else of the frames.
+    """
+    visible = (model.geom_type != mujoco.mjtGeom.mjGEOM_PLANE) & (model.geom_rgba[:, 3] > 0)
+    real = np.flatnonzero(visible)
+    markers = data.site_xpos[list(marked_meshes(model))]
+    if not len(real):
+        points = markers if len(markers) else data.xpos
+        low, high = points.min(axis=0), points.max(axis=0)
+        margin = max(0.1 * float(np.linalg.norm(high - low)), _LEAST_MARGIN)
+        return low - margin, high + margin
     turn = data.geom_xmat[real].reshape(-1, 3, 3)
     centre = data.geom_xpos[real] + np.einsum("nij,nj->ni", turn, model.geom_aabb[real, :3])
     half = np.einsum("nij,nj->ni", np.abs(turn), model.geom_aabb[real, 3:])
-    return (centre - half).min(axis=0), (centre + half).max(axis=0)
+    low, high = (centre - half).min(axis=0), (centre + half).max(axis=0)
+    size = float(np.linalg.norm(high - low))
+    near = markers[((markers > low - size) & (markers < high + size)).all(axis=1)]
+    corners = np.concatenate(([low, high], near))
+    return corners.min(axis=0), corners.max(axis=0)
 
 
 def add_lighting(spec: Any) -> None:

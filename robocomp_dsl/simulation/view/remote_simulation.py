@@ -13,6 +13,7 @@ from typing import Any, Protocol
 import mujoco
 import numpy as np
 
+from robocomp_dsl.hardware.description.scene import ROOT
 from robocomp_dsl.hardware.kinematics.rotations import angles
 from robocomp_dsl.runtime.errors import DeclaredError, MiddlewareError
 from robocomp_dsl.simulation.scene import axes
@@ -45,8 +46,8 @@ class SimulationControl(Protocol):
     def move(self, joint: str, value: float, turns: bool) -> None:
         """Move a joint to a position in rad, or m for a slide."""
 
-    def place(self, body: str, position: Floats, quat: Floats) -> None:
-        """Set the pose of a body in its parent: m, (w, x, y, z)."""
+    def place(self, body: str, above: str, position: Floats, quat: Floats) -> None:
+        """Set the pose of a body in the body `above` (empty: the root): m, (w, x, y, z)."""
 
 
 class RemoteSimulation:
@@ -92,7 +93,7 @@ class RemoteSimulation:
         goal = np.array([value if turns else value / axes.MM])
         self._try(partial(self._simulation.move, 0, [joint], goal))
 
-    def place(self, body: str, position: Floats, quat: Floats) -> None:
+    def place(self, body: str, above: str, position: Floats, quat: Floats) -> None:
         """See `SimulationControl`."""
         turned = np.zeros(9)
         mujoco.mju_quat2Mat(turned, quat)
@@ -103,8 +104,10 @@ class RemoteSimulation:
         if self._nodes is None:
             self.error = "nodes cannot be placed from here"
             return
-        # MuJoCo's root body uses the name `world`
-        self._try(partial(self._nodes.setPoseFromParent, body.removesuffix("."), pose))
+        # MuJoCo's root body uses the name `world`; falling bodies are in the root, not in their
+        # parents of InnerModel
+        item, base = body.removesuffix("."), above.removesuffix(".") or ROOT
+        self._try(partial(self._nodes.setPose, base, item, pose))
 
     def _try(self, ask: Callable[[], Any]) -> None:
         try:

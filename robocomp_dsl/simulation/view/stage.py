@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from robocomp_dsl.simulation.models.mesh_marker import MARKER_COLOUR, marked_meshes, marker_size
 from robocomp_dsl.simulation.view.shapes import colour, triangles
 from robocomp_dsl.simulation.world.visual_state import VisualState
 
@@ -42,6 +43,8 @@ class Stage:
         for geom in range(model.ngeom):
             if model.geom_group[geom] < _INVISIBLE_GROUPS:
                 self._show(geom)
+        for site, name in marked_meshes(model).items():
+            self._mark(site, name)
         self.update(seen)
 
     @property
@@ -72,6 +75,15 @@ class Stage:
             flat_shading=True,
             position=self.model.geom_pos[geom],
             wxyz=self.model.geom_quat[geom],
+        )
+
+    def _mark(self, site: int, name: str) -> None:
+        """Show the marker of a missing mesh."""
+        self.server.scene.add_box(
+            f"{self.paths[self.model.site_bodyid[site]]}/{_safe(name)}:missing mesh",
+            color=MARKER_COLOUR[:3],
+            dimensions=(marker_size(self.extent),) * 3,
+            position=self.model.site_pos[site],
         )
 
     def update(self, seen: VisualState) -> None:

@@ -27,6 +27,7 @@ from robocomp_dsl.hardware.description.scene_edit import (
 from robocomp_dsl.hardware.devices.errors import require_finite
 from robocomp_dsl.hardware.kinematics.rotations import Matrix, angles, inverse, pose_rows
 from robocomp_dsl.simulation.scene import axes
+from robocomp_dsl.simulation.world.limits import require_limits
 from robocomp_dsl.simulation.world.state import SimulationState
 
 NAMES = ("x", "y", "z", "rx", "ry", "rz")
@@ -80,6 +81,7 @@ def place(simulation: ChangeableWorld, base: str, item: str, pose: Sequence[floa
     # as it is written, if it is relative to the parent: a joint may turn by more than 180 degrees
     x, y, z, rx, ry, rz = pose if base == frame.parent else pose_of(in_parent)
     changed = replace(frame, place=(x, y, z), turn=(rx, ry, rz))
+    require_limits(Scene((changed,)))
     if frame.motion:
         _place_joint(simulation, changed)
     elif _falls(simulation.state, frame.id):
@@ -94,8 +96,10 @@ def _place_given(branch: SimulationState, frame: Frame, in_root: Matrix) -> None
     if frame.model_part == "joint":
         message = f"`{frame.id}` is a joint of the model file: JointMotor and ControlBoard move it"
         raise NodeError(NodeErrorCode.WRONG_NODE, message)
+    x, y, z, rx, ry, rz = pose_of(in_root)
+    require_limits(Scene((replace(frame, place=(x, y, z), turn=(rx, ry, rz)),)))
     model, data = branch.world.model, branch.world.data
-    position = axes.point(*in_root[:3, 3].tolist())
+    position = axes.point(x, y, z)
     turned = axes.quaternion(in_root[:3, :3])
     body = branch.body(frame.id) if frame.model_part == "body" else 0
     joint, mocap = int(model.body_jntadr[body]), int(model.body_mocapid[body])

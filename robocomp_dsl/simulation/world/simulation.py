@@ -29,14 +29,15 @@ from robocomp_dsl.hardware.servants.serving import DevicePort, serve
 from robocomp_dsl.runtime import ServedPort
 from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.simulation.devices.skin_stream import SkinStream
-from robocomp_dsl.simulation.scene.scene_devices import build_devices
+from robocomp_dsl.simulation.scene import scene_devices
+from robocomp_dsl.simulation.scene.found_files import with_found_files
 from robocomp_dsl.simulation.scene.scene_joints import JointBoard
 from robocomp_dsl.simulation.scene.scene_skins import build_skins
 from robocomp_dsl.simulation.scene.scene_spec import build_spec
 from robocomp_dsl.simulation.servants.registry import WORLD_SERVANTS
 from robocomp_dsl.simulation.stepping.real_time import RealTimeDriver
 from robocomp_dsl.simulation.stepping.select_driver import StepDriver, select_driver
-from robocomp_dsl.simulation.world.limits import clamp_scene
+from robocomp_dsl.simulation.world.limits import clamp_scene, require_limits
 from robocomp_dsl.simulation.world.noise import NoiseLevel
 from robocomp_dsl.simulation.world.overlaps import current_overlaps
 from robocomp_dsl.simulation.world.state import SimulationState
@@ -96,8 +97,12 @@ class Simulation:
 
     @classmethod
     def read(cls, path: Path, options: SimulationOptions = SimulationOptions()) -> Simulation:
-        """The scene in a JSON file written by `rcgen simulator`. Raises `SceneError`."""
-        return cls(Scene.of_data(read_data(path)["scene"], path.parent), options)
+        """The scene in a JSON file written by `rcgen simulator`. Raises `SceneError`.
+
+        Meshes and pictures that are not where they were are searched in ROBOCOMP_FILES.
+        """
+        scene = Scene.of_data(read_data(path)["scene"], path.parent)
+        return cls(with_found_files(scene, path.parent, log), options)
 
     # -- while the caller holds the lock ------------------------------------------------------
 
@@ -181,7 +186,9 @@ class Simulation:
 
     def rebuild(self, scene: Scene, forget: Collection[str] = ()) -> None:
         """Switch to another scene; parts in both keep their state. Raises `SceneError`."""
-        state = self._build(scene, self.state.devices, self.world, forget)
+        require_limits(scene)
+        existing = scene_devices.unmoved(self.state.scene, scene, self.state.devices)
+        state = self._build(scene, existing, self.world, forget)
         self.revision += 1
         failure = self.failure
         self.switch_to(state)
@@ -197,9 +204,11 @@ class Simulation:
         try:
             scene, clamped = clamp_scene(scene)
             spec, notes = build_spec(scene)
+            if before is None:  # a change at run time must not make one
+                scene = scene_devices.without_blind_sensors(scene, spec, notes)
             self.notes = clamped + notes
             spec.option.timestep = self.options.step
-            parts = build_devices(scene, self.noise, existing)
+            parts = scene_devices.build_devices(scene, self.noise, existing)
             parts |= build_skins(scene, self.noise, self._skin_settings, existing)
             unique = dict.fromkeys(parts.values())
             world = World(

@@ -48,8 +48,8 @@ class World:
     `step` is the physics time step in s.
 
     `start` sets the initial state. A world that replaces another one (`before`) continues its time
-    and the state of all joints of the same name except those in `forget`; devices of both worlds
-    are rebound by `find`.
+    and the state of all joints in bodies of the same name except those in `forget`; devices of both
+    worlds are rebound by `find`.
     """
 
     def __init__(
@@ -146,9 +146,8 @@ class World:
         self.model.opt.disableflags = before.model.opt.disableflags
         old, new = before.model, self.model
         for joint in range(old.njnt):
-            name = old.joint(joint).name
-            at = mujoco.mj_name2id(new, mujoco.mjtObj.mjOBJ_JOINT, name) if name else -1
-            if at < 0 or name in forget or new.jnt_type[at] != old.jnt_type[joint]:
+            at = _same_joint(old, joint, new)
+            if at < 0 or old.joint(joint).name in forget:
                 continue
             there, here = old.joint(joint), new.joint(at)
             before_joint, this_joint = before.data.joint(there.id), self.data.joint(here.id)
@@ -166,3 +165,17 @@ class World:
         for kind, name in _BAD:
             if numbers[kind]:
                 raise Diverged(f"the simulation diverged before {self.time:.3f} s ({name})")
+
+
+def _same_joint(old: Any, joint: int, new: Any) -> int:
+    """The joint of the model `new` at the same place in its body, or -1.
+
+    Its name may differ: that of a base's joint yields to the name of an added node.
+    """
+    body = old.jnt_bodyid[joint]
+    at = mujoco.mj_name2id(new, mujoco.mjtObj.mjOBJ_BODY, old.body(body).name)
+    order = joint - old.body_jntadr[body]
+    if at < 0 or order >= new.body_jntnum[at]:
+        return -1
+    found = int(new.body_jntadr[at] + order)
+    return found if new.jnt_type[found] == old.jnt_type[joint] else -1

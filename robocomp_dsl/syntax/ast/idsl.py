@@ -1,8 +1,8 @@
 """The tree of an IDSL file: modules with their types, exceptions and interfaces.
 
 Definitions of ROS (`.msg`, `.srv`, `.action`) and YARP (`.thrift`, `.bottle`) have the same tree.
-Only those of ROS have arrays and bounded strings, only those of Thrift other names of types and
-interfaces that extend another one; both have constants.
+Only those of ROS have bounded strings, only those of Thrift other names of types and interfaces
+that extend another one; both have constants.
 """
 
 from __future__ import annotations
@@ -13,7 +13,10 @@ from robocomp_dsl.syntax.ast.base import Import, Literal, Name, Node, Number, Qu
 
 
 class Array(Node):
-    """`[36]`, `[<=3]` or `[]` after the type of a field of a ROS definition; 0: no limit."""
+    """`[36]` behind the name of a field; `[36]`, `[<=3]` or `[]` behind a type of ROS.
+
+    0: no limit.
+    """
 
     size: int = 0
     bound: int = 0
@@ -79,7 +82,7 @@ class Enum(Node):
 
 
 class Sequence(Node):
-    """`sequence<element> Name;`.
+    """`sequence<element> Name;`, `sequence<element, bound> Name;`; `bound` is 0 without one.
 
     `is_implicit`: it stands for Thrift's `list<element>`, which has no name in its file.
     """
@@ -88,6 +91,7 @@ class Sequence(Node):
     element: QualifiedName
     doc: str = ""
     is_implicit: bool = False
+    bound: int = 0
 
 
 class Dictionary(Node):

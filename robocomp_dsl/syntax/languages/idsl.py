@@ -120,14 +120,18 @@ class IdslBuilder(OperationsBuilder):
     def field(
         self,
         span: Span,
-        kind: QualifiedName,
-        name: Name,
-        unit: Unit | None,
-        default: tuple[Literal, Unit | None] | None,
+        *parts: Any,
     ) -> ast.Field:
-        """`type name [unit] = default [unit];`."""
+        """`type name[size] [unit] = default [unit];`."""
+        if isinstance(parts[0], tuple):  # `unsigned name`, which was reported
+            parts = (*parts[0], *parts[1:])
+        kind, name, *brackets, default = parts
         value, second = default or (None, None)
-        return ast.Field(span, kind, name, value, unit or second, self.doc(span))
+        array, unit = self.array_and_unit([*brackets, *of_kind(Unit, [second])])
+        if array and value:
+            self.without_default(array, name, value)
+            value = None
+        return ast.Field(span, kind, name, value, unit, self.doc(span), array)
 
     def default(self, _span: Span, value: Any, unit: Unit | None) -> tuple[Literal, Unit | None]:
         """`= value`; the module of a qualified enumerator is redundant."""
@@ -149,9 +153,11 @@ class IdslBuilder(OperationsBuilder):
         """`A` or `A = 2`."""
         return ast.Enumerator(span, name, value, self.doc(span))
 
-    def sequence(self, span: Span, element: QualifiedName, name: Name) -> ast.Sequence:
-        """`sequence<element> Name;`."""
-        return ast.Sequence(span, name, element, self.doc(span))
+    def sequence(
+        self, span: Span, element: QualifiedName, bound: int | None, name: Name
+    ) -> ast.Sequence:
+        """`sequence<element> Name;` or `sequence<element, bound> Name;`."""
+        return ast.Sequence(span, name, element, self.doc(span), bound=bound or 0)
 
     def dictionary(
         self, span: Span, key: QualifiedName, value: QualifiedName, name: Name

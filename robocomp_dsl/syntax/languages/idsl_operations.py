@@ -14,7 +14,8 @@ from robocomp_dsl.syntax.ast.base import Name, Node, Number, QualifiedName, Unit
 from robocomp_dsl.syntax.ast.idsl import Operation, Param
 from robocomp_dsl.syntax.codes import legacy as legacy_codes
 from robocomp_dsl.syntax.codes import syntax as syntax_codes
-from robocomp_dsl.syntax.languages.builder import Builder, of_kind
+from robocomp_dsl.syntax.languages.builder import of_kind
+from robocomp_dsl.syntax.languages.idsl_lengths import LengthsBuilder
 
 PATTERNS = ("command", "query", "publish")
 _SEQUENCES = ("vector", "list", "array", "set", "deque", "sequence")
@@ -43,7 +44,7 @@ class ThrowsClause(Node):
     types: tuple[QualifiedName, ...]
 
 
-class OperationsBuilder(Builder):
+class OperationsBuilder(LengthsBuilder):
     """The part of the IDSL builder for operations."""
 
     def qualified(self, span: Span, first: Name, second: Name | None) -> QualifiedName:
@@ -85,11 +86,12 @@ class OperationsBuilder(Builder):
     def param(self, span: Span, *children: Any) -> Param:
         """`out Type name [unit]`; a missing name is generated when the operation is built."""
         index = next(i for i, child in enumerate(children) if isinstance(child, QualifiedName))
-        kind, name, unit = children[index : index + 3]
+        kind, name, *brackets = children[index:]
         for direction in children[:index]:
             if direction.text == "idempotent":
                 self._meaningless(direction, "a parameter")
         out = any(direction.text == "out" for direction in children[:index])
+        unit = self.scalar_unit(name.text if name else kind.text, brackets)
         return Param(span, kind, name or Name(kind.span, ""), out, unit)
 
     def operation(self, span: Span, *children: Any) -> Operation:

@@ -106,7 +106,9 @@ class Patch:
 class GenericPart:
     """A generic part: an arm has the five indices of `GENERIC_ARM` on every robot.
 
-    `fixed_joints` are the other joints of the robot's arm; they keep their positions.
+    `fixed_joints` are the other joints of the robot's arm; they keep their positions. `tip` names
+    the body or site of the model at the end of the chain; it may be empty. `row_places` are the
+    generic index of each row of the chain, None for a fixed row, and its place.
     """
 
     name: str
@@ -117,6 +119,9 @@ class GenericPart:
     fields: tuple[Field, ...] = ()
     fixed_joints: tuple[FixedJoint, ...] = ()
     place: Location = field(default=NOWHERE, compare=False)
+    tip: str = ""
+    chain_place: Location = field(default=NOWHERE, compare=False)
+    row_places: tuple[tuple[int | None, Location], ...] = field(default=(), compare=False)
 
     @property
     def joints(self) -> tuple[str, ...]:

@@ -8,7 +8,8 @@ The format:
     parts:
       left_arm:
         servos: [{joint, part, gamma, sigma, limits, speed, stiffness, damping, start, unit}, ...]
-        chain: {base: {position, rpy}, tool: {...}, rows: [{servo | fixed, a, d, alpha, offset}]}
+        chain: {base: {position, rpy}, tool: {...}, rows: [{servo | fixed, a, d, alpha, offset}],
+                tip: body or site of the model at the end of the chain (optional)}
         limbs: {upper_arm: {body, covers, position, rpy, cone: {x: [x0, x1], r: [r0, r1]}}}
         skin: [{patch, limb, first_id, rings | points | file, sensitivity}]
         fields: [{name, limb, x, theta, rho, radius, motion}]
@@ -83,10 +84,10 @@ def _part(name: str, entry: YamlValue) -> GenericPart:
     fixed = table.get("held")
     held = tuple(_fixed_joint(item) for item in fixed.items()) if fixed else ()
     table.finish()
-    dh_chain = _chain(chain, len(servos)) if chain else None
-    return GenericPart(
-        name, servos, dh_chain, tuple(limbs.values()), patches, fields, held, entry.place
+    part = GenericPart(
+        name, servos, None, tuple(limbs.values()), patches, fields, held, entry.place
     )
+    return _with_chain(part, chain) if chain else part
 
 
 def _servo(entry: YamlValue) -> Servo:
@@ -165,17 +166,22 @@ def _cone(entry: YamlValue) -> Cone:
         return Cone(0, 1, 1, 1)
 
 
-def _chain(entry: YamlValue, size: int) -> Chain:
+def _with_chain(part: GenericPart, entry: YamlValue) -> GenericPart:
     table = entry.table()
+    size, tip = len(part.servos), table.text("tip", "")
     base, tool = (_pose_at(table, key) for key in ("base", "tool"))
     listed = table.require("rows")
     table.finish()
-    rows = tuple(_dh_link(row, size) for row in listed.items()) if listed else ()
+    items = listed.items() if listed else []
+    rows = tuple(_dh_link(row, size) for row in items)
     try:
-        return Chain(rows, size, base, tool)
+        chain = Chain(rows, size, base, tool)
     except ValueError as error:
         entry.report(str(error))
-        return Chain((), size)
+        chain = Chain((), size)
+    joints = (row.joint for row in rows)
+    places = tuple(zip(joints, (item.place for item in items), strict=True))
+    return replace(part, chain=chain, tip=tip, chain_place=entry.place, row_places=places)
 
 
 def _dh_link(entry: YamlValue, size: int) -> DhLink:

@@ -12,9 +12,14 @@ from pathlib import Path
 import pytest
 
 from tests.campaign.running_deployment import RunningDeployment
+from tests.support.shifted_clock import (
+    COMPILER,
+    clock_environment,
+    compile_clock,
+    set_clock_offset,
+)
 from tests.support.waiting import wait_until
 
-FAKETIME = next(iter(Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1")), None)
 CLOCK = """
 import "echo/echo.cdsl";
 import "bystander/bystander.cdsl";
@@ -22,8 +27,7 @@ Deployment clock
 {{
     component echo
     {{
-        watchdog 1 s; env LD_PRELOAD = "{library}"; env FAKETIME_TIMESTAMP_FILE = "{file}";
-        env FAKETIME_NO_CACHE = "1"; env DONT_FAKE_MONOTONIC = "1";
+        watchdog 1 s; {environment}
     }};
     component bystander {{ after echo; }};
 }};
@@ -42,16 +46,17 @@ def fill_up(path: Path) -> None:
             stream.write(bytes(4096))
 
 
-@pytest.mark.skipif(FAKETIME is None, reason="the Debian package faketime is not installed")
+@pytest.mark.skipif(not shutil.which(COMPILER), reason="no C compiler is installed")
 def test_clock_set_one_hour_off_ends_nothing(folder: Path) -> None:
-    file = folder / "clock"
-    file.write_text("+0\n")
+    compile_clock(folder)
+    variables = clock_environment(folder)
     path = folder / "clock.ddsl"
-    path.write_text(CLOCK.format(library=FAKETIME, file=file))
+    environment = " ".join(f'env {name} = "{value}";' for name, value in variables.items())
+    path.write_text(CLOCK.format(environment=environment))
     with RunningDeployment(path) as app:
         app.wait_ready()
-        for offset in ("+3600", "-3600"):
-            file.write_text(f"{offset}\n")
+        for offset in (3600.0, -3600.0):
+            set_clock_offset(folder, offset)
             before = calls(folder)
             # Longer than the watchdog.
             wait_until(lambda: calls(folder) > before + 120, "calls go on after the step")  # noqa: B023

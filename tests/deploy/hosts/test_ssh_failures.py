@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.deploy.hosts import ssh_client
 from robocomp_dsl.deploy.hosts.connection import connect
 from robocomp_dsl.deploy.hosts.errors import HostError
 from robocomp_dsl.extras import MissingExtra
@@ -22,7 +21,7 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def failure_at(greeting: bytes | None) -> HostError:
+def failure_at(greeting: bytes | None, silence_s: float = 30.0) -> HostError:
     """The error with a TCP server that sends `greeting` and closes, or only listens (None)."""
 
     async def serve(_: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
@@ -35,7 +34,7 @@ def failure_at(greeting: bytes | None) -> HostError:
         server = await asyncio.start_server(serve, "127.0.0.1", 0)
         port = server.sockets[0].getsockname()[1]
         with pytest.raises(HostError) as caught:
-            await connect(Host("arm", "127.0.0.1", "nao", ssh_port=port))
+            await connect(Host("arm", "127.0.0.1", "nao", ssh_port=port), silence_s)
         server.close()
         return caught.value
 
@@ -51,11 +50,8 @@ def failure_at(greeting: bytes | None) -> HostError:
         (None, "no answer within 0.2 s"),
     ],
 )
-def test_ssh_failure_describes_servers(
-    greeting: bytes | None, message: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(ssh_client, "CONNECT_TIMEOUT_S", 0.2 if greeting is None else 30)
-    error = failure_at(greeting)
+def test_ssh_failure_describes_servers(greeting: bytes | None, message: str) -> None:
+    error = failure_at(greeting, 0.2 if greeting is None else 30.0)
     assert message in str(error)
     assert str(error).startswith("`arm` (nao@127.0.0.1, port ")
     assert error.code.id == "RC830"

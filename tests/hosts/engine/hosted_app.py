@@ -80,6 +80,12 @@ class HostedApp:
         folder = key_folder(deployment.name)
         update_keys(deployment.name, identities(deployment), folder, datetime.now(UTC))
 
+    def deploy(self, statements: str, name: str = "app") -> None:
+        """Let the hosts run `statements`, whatever they ran before."""
+        self.write(statements, name)
+        self.make_keys()
+        assert not self.up().failed, self.lines
+
     def up(self) -> RolloutResult:
         self.lines.clear()
         return run_async(self.deployer().up())

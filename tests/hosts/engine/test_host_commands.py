@@ -33,6 +33,13 @@ def operator(app: HostedApp, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(app.folder)
 
 
+@pytest.fixture
+def deployed(app: HostedApp) -> HostedApp:
+    """`arm` and `eye` run."""
+    app.deploy(APP)
+    return app
+
+
 class Commands:
     """Runs commands in this process."""
 
@@ -63,16 +70,18 @@ def test_rcdeploy_up_needs_keys(app: HostedApp, rcdeploy: Commands) -> None:
     app.write(APP)
     assert "rcdeploy keys app.ddsl" in rcdeploy("app.ddsl", code=1)
     assert list(registry.registered()) == []
+
+
+def test_rcdeploy_up_returns_when_all_are_ready(app: HostedApp, rcdeploy: Commands) -> None:
+    app.write(APP)
     rcdeploy("keys", "app.ddsl")
-
-
-def test_rcdeploy_up_returns_when_all_are_ready(rcdeploy: Commands) -> None:
     text = rcdeploy("up", "app.ddsl")
     assert "app: version 1 is deployed, all components are ready" in text
     assert "nothing changes" in rcdeploy("up", "app.ddsl")
     assert "for deployments on one machine" in rcdeploy("up", "app.ddsl", "--duration", "3", code=2)
 
 
+@pytest.mark.usefixtures("deployed")
 def test_rcdeploy_status_shows_hosts(rcdeploy: Commands) -> None:
     text = rcdeploy("status", "app")
     assert "HOST" in text
@@ -83,6 +92,7 @@ def test_rcdeploy_status_shows_hosts(rcdeploy: Commands) -> None:
     assert data["hosts"][0]["name"] == "robot"
 
 
+@pytest.mark.usefixtures("deployed")
 def test_rcdeploy_status_works_without_registry(rcdeploy: Commands) -> None:
     [entry] = registry.registered()
     registry.forget("app")
@@ -91,12 +101,14 @@ def test_rcdeploy_status_works_without_registry(rcdeploy: Commands) -> None:
     registry.register(entry)
 
 
+@pytest.mark.usefixtures("deployed")
 def test_rcdeploy_inspects_over_hosts(rcdeploy: Commands) -> None:
     assert "eye" in rcdeploy("list")
     assert "rate" in rcdeploy("param", "list", "app", "arm")
     assert "dist" in rcdeploy("call", "arm.Laser.getLaserData")
 
 
+@pytest.mark.usefixtures("deployed")
 def test_rcdeploy_logs_select_by_component_and_text(rcdeploy: Commands) -> None:
     wait_until(lambda: "eye sees arm" in rcdeploy("logs"), "no logs")
     text = rcdeploy("logs", "app", "-c", "eye", "--grep", "sees", "-n", "1")
@@ -108,9 +120,9 @@ def test_rcdeploy_logs_select_by_component_and_text(rcdeploy: Commands) -> None:
     assert "use --since" in rcdeploy("logs", "app", "--run", "3", code=1)
 
 
-def test_rcdeploy_diff_and_rollback(app: HostedApp, rcdeploy: Commands) -> None:
+def test_rcdeploy_diff_and_rollback(deployed: HostedApp, rcdeploy: Commands) -> None:
     assert "runs as described" in rcdeploy("diff", "app.ddsl")
-    app.write(APP.replace('"a"', '"b"'))
+    deployed.write(APP.replace('"a"', '"b"'))
     text = rcdeploy("diff", "app.ddsl", code=1)
     assert "robot: restart arm (changed: command line)" in text
     [host] = json.loads(rcdeploy("diff", "app.ddsl", "--format", "json", code=1))
@@ -124,14 +136,15 @@ def test_rcdeploy_diff_and_rollback(app: HostedApp, rcdeploy: Commands) -> None:
     assert "version 2 runs" in rcdeploy("rollback", "app", "2")
 
 
-def test_rcdeploy_up_on_one_machine_needs_a_free_name(app: HostedApp, rcdeploy: Commands) -> None:
-    text = app.path.read_text()
-    app.write(APP.replace("on robot", ""))
+def test_rcdeploy_up_on_one_machine_needs_a_free_name(
+    deployed: HostedApp, rcdeploy: Commands
+) -> None:
+    deployed.write(APP.replace("on robot", ""))
     once = ("--duration", "0")  # ends if the name is free
     assert "`app` runs on robot; stop it" in rcdeploy("up", "app.ddsl", *once, code=1)
-    app.path.write_text(text)
 
 
+@pytest.mark.usefixtures("deployed")
 def test_rcdeploy_stop_and_start(rcdeploy: Commands) -> None:
     assert "eye (robot): stopped" in rcdeploy("stop", "app", "eye")
     assert "no component or group" in rcdeploy("stop", "app", "eey", code=1)

@@ -3,7 +3,8 @@
 `caller` sends numbered commands to `ledger`, and does not repeat one. `ledger` writes each command
 that it executes, `caller` each that is acknowledged: the journals show what was lost or executed
 twice. `source` publishes numbers to `sink`, and logs each. `faulty` fails as its parameter says,
-`stubborn` ignores SIGTERM.
+`stubborn` ignores SIGTERM. `caller` and `ledger` are not ready while the file `NAME.hold` is in the
+folder of the journals.
 Times are those of the monotonic clock, which all hosts of a test share.
 """
 
@@ -56,11 +57,17 @@ def write(journal, *fields):
     os.write(journal, (" ".join(map(str, fields)) + "\\n").encode())
 
 
+def wait_while_held(name):
+    while (JOURNALS / f"{{name}}.hold").exists():
+        time.sleep(0.01)
+
+
 class SpecificWorker(GenericWorker):
 """
 WORKERS = {
     "ledger": """
     def initialize(self):
+        wait_while_held("ledger")
         self.journal = open_journal("executed")
     def Ledger_add(self, caller, number):
         write(self.journal, caller, number, time.monotonic())
@@ -68,6 +75,7 @@ WORKERS = {
 """,
     "caller": """
     def initialize(self):
+        wait_while_held("caller")
         self.journal, self.number = open_journal("acknowledged"), 0
         self.identity = random.getrandbits(31)
     def compute(self):
@@ -92,7 +100,7 @@ WORKERS = {
         write(self.journal, text, number, time.monotonic())
 """,
     "faulty": """
-    kept = b""
+    leaked = b""
     def compute(self):
         match self.params.fault:
             case "crashes":
@@ -101,7 +109,7 @@ WORKERS = {
             case "hangs":
                 time.sleep(3600)
             case "leaks":
-                self.kept += bytes(5_000_000)
+                self.leaked += bytes(5_000_000)
 """,
     "stubborn": """
     signal.signal(signal.SIGTERM, signal.SIG_IGN)

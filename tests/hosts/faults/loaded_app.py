@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import math
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -81,6 +82,16 @@ class LoadedApp(HostedApp):
     def unit_pids(self) -> dict[str, int]:
         return {name: unit.pid for name, unit in self.units().items()}
 
+    @contextmanager
+    def held(self, component: str) -> Iterator[None]:
+        """Meanwhile no new process of `ledger` or `caller` becomes ready."""
+        path = journals_of(self.host_of(component)) / f"{component}.hold"
+        path.touch()
+        try:
+            yield
+        finally:
+            path.unlink()
+
     def kill(self, component: str) -> float:
         """SIGKILL; returns the time by the monotonic clock [s]."""
         return kill_unit(self.host_of(component), self.unit(component).pid)
@@ -111,7 +122,7 @@ class LoadedApp(HostedApp):
         """Wait for an entry of a journal after `since`; its time [s]."""
         return wait_until(
             lambda: next((t for _, _, t in self.journal(component, name) if t > since), 0.0),
-            f"nothing in the journal {name} of {component}",
+            lambda: f"nothing in the journal {name} of {component}\n{self.last_lines()}",
         )
 
     def row(self, component: str) -> ProcessStatus:
@@ -122,6 +133,19 @@ class LoadedApp(HostedApp):
         """The log file of a component."""
         path = f"{names.root_folder(self.name)}/{names.log_file(component)}"
         return (self.host_of(component).home / path).read_text("utf-8")
+
+    def last_lines(self, count: int = 20) -> str:
+        """The last log lines of all processes and routers, for messages of tests."""
+        folders = [
+            self.hosts.by_name[host].home / names.root_folder(self.name) / "logs"
+            for host in sorted(set(self.places.values()))
+        ]
+        return "\n".join(
+            f"{path.stem}: {line}"
+            for folder in folders
+            for path in sorted(folder.glob("*.log"))
+            for line in path.read_text("utf-8", "replace").splitlines()[-count:]
+        )
 
     def logged(self, component: str, text: str, since: float) -> list[float]:
         """The times of the log lines after `since` that contain `text` [s since 1970]."""

@@ -13,6 +13,8 @@ from typing import Self
 
 from tests.support.waiting import wait_until
 
+TIMEOUT_S = 300.0
+"""Long, for a busy machine and a slow link; only a test that fails waits so long."""
 PROGRAM = (sys.executable, "-m", "robocomp_dsl.cli.rcdeploy")
 
 
@@ -46,8 +48,11 @@ class RcdeployRun:
         assert code == -9, f"rcdeploy ended before the moment `{moment}`: {code}\n{self.output}"
 
     def wait(self) -> int:
-        """The exit code."""
-        return self.process.wait(120)
+        """The exit code. Raises `AssertionError` with the output if it does not end."""
+        try:
+            return self.process.wait(TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            raise AssertionError(f"rcdeploy does not end:\n{self.output}") from None
 
     def __enter__(self) -> Self:
         return self

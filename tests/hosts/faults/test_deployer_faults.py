@@ -90,7 +90,8 @@ def test_killed_deployer_leaves_deployment_running(
 ) -> None:
     before = deployed.unit_pids()
     change_workers(deployed)
-    with RcdeployRun("up", deployed.path) as run:
+    # A rollout in which one component is not ready yet cannot end before the moment.
+    with deployed.held("caller"), RcdeployRun("up", deployed.path) as run:
         run.kill_when(moment(deployed, run), moment.__name__)
     killed = time.monotonic()
     wait_until(lambda: not is_locked(deployed), "the lock of the killed deployer stays")
@@ -112,11 +113,12 @@ def test_second_deployer_is_refused(deployed: LoadedApp) -> None:
     before = deployed.unit_pids()
     change_workers(deployed)
     with RcdeployRun("up", deployed.path) as first:
-        wait_until(lambda: is_locked(deployed), lambda: first.output)
-        with RcdeployRun("up", deployed.path) as second:
-            assert second.wait() == 1
-            assert "another rcdeploy changes the deployment there" in second.output
-            assert "nothing was changed" in second.output
+        with deployed.held("ledger"):
+            wait_until(when_locked(deployed, first), lambda: first.output)
+            with RcdeployRun("up", deployed.path) as second:
+                assert second.wait() == 1, f"{first.output}\n{second.output}"
+                assert "another rcdeploy changes the deployment there" in second.output
+                assert "nothing was changed" in second.output
         assert first.wait() == 0, first.output
     after = deployed.unit_pids()
     assert all(after[name] != before[name] for name in CHANGED)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from itertools import pairwise
+from pathlib import Path
 from statistics import median
 
 import pytest
@@ -40,7 +41,7 @@ def durations(app: LoadedApp, count: int, since: float) -> list[float]:
     def times() -> list[float]:
         return [t for _, _, t in app.journal("caller", "acknowledged") if t > since]
 
-    wait_until(lambda: len(times()) > count, lambda: f"{len(times())} calls")
+    wait_until(lambda: len(times()) > count, lambda: f"{len(times())} calls\n{app.last_lines()}")
     found = times()[: count + 1]
     return [after - before for before, after in pairwise(found)]
 
@@ -51,31 +52,40 @@ def missed_numbers(app: LoadedApp, since: float) -> tuple[int, int]:
     return len(numbers), numbers[-1] - numbers[0] + 1 - len(numbers)
 
 
-def seconds_of_status(app: LoadedApp) -> float:
-    """How long a status took; 0 if a host was not reached within its time limit."""
-    start = time.monotonic()
-    with RcdeployRun("status", app.name) as run:
-        return time.monotonic() - start if run.wait() == 0 else 0.0
+OUT_OF_REACH = ("no answer", "no way to the address", "the connection was lost")
 
 
-@pytest.mark.slow  # a lost packet may exceed a time limit of ssh
+def seconds_until_done(*words: str | Path) -> tuple[float, int]:
+    """How long a command of rcdeploy took that succeeded, and how many attempts there were.
+
+    A link that loses packets may be silent for longer than any limit: rcdeploy says so, and its
+    user runs it again.
+    """
+    start, outputs = time.monotonic(), []
+
+    def succeeds() -> bool:
+        with RcdeployRun(*words) as run:
+            code = run.wait()
+            outputs.append(run.output)
+        assert code == 0 or any(text in outputs[-1] for text in OUT_OF_REACH), outputs[-1]
+        return code == 0
+
+    wait_until(succeeds, lambda: "\n".join(outputs))
+    return time.monotonic() - start, len(outputs)
+
+
 def test_lossy_slow_link_slows_down_only(loaded: LoadedApp, record_property: Record) -> None:
     robot = loaded.hosts.by_name["robot"]
     before = loaded.unit_pids()
-    robot.netem(loss=LOSS, delay_ms=DELAY_MS)
-    try:
+    loaded.first_after("caller", "acknowledged", time.monotonic())
+    with robot.netem(loss=LOSS, delay_ms=DELAY_MS):
         since = time.monotonic()
         calls = durations(loaded, 20, since)
         received, missed = missed_numbers(loaded, since)
-        shown = wait_until(lambda: seconds_of_status(loaded), "status never reached both hosts")
+        shown, _ = seconds_until_done("status", loaded.name)
         worker = loaded.folder / "sink/specificworker.py"
         worker.write_text(f"{worker.read_text('utf-8')}\n# {time.monotonic_ns()}\n", "utf-8")
-        start = time.monotonic()
-        with RcdeployRun("up", loaded.path) as run:
-            assert run.wait() == 0, run.output
-        deployed = time.monotonic() - start
-    finally:
-        robot.end_netem()
+        deployed, attempts = seconds_until_done("up", loaded.path)
     after = loaded.unit_pids()
     assert [name for name in UNDER_LOAD if after[name] != before[name]] == ["sink"]
     assert loaded.lost_calls() == set()
@@ -85,7 +95,10 @@ def test_lossy_slow_link_slows_down_only(loaded: LoadedApp, record_property: Rec
         f"{median(calls):.2f}, {percentile(calls, 0.99):.2f}",
     )
     record_property(f"{label} publications received, missed", f"{received}, {missed}")
-    record_property(f"{label} status, up with one change [s]", f"{shown:.1f}, {deployed:.1f}")
+    record_property(
+        f"{label} status, up with one change [s], attempts of up",
+        f"{shown:.1f}, {deployed:.1f}, {attempts}",
+    )
 
 
 def test_clock_one_hour_off_is_reported(loaded: LoadedApp, record_property: Record) -> None:
@@ -97,6 +110,9 @@ def test_clock_one_hour_off_is_reported(loaded: LoadedApp, record_property: Reco
             assert run.wait() == 0, run.output
             assert "-3600" in run.output
             assert "warning" in run.output
+        with RcdeployRun("up", "--clock-limit", "4000000", loaded.path) as run:
+            assert run.wait() == 0, run.output
+            assert "-3600" not in run.output
         assert loaded.unit_pids() == before
         loaded.first_after("caller", "acknowledged", time.monotonic())
         killed = loaded.kill("ledger")

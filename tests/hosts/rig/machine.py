@@ -6,10 +6,10 @@ import json
 import os
 import shlex
 import signal
-import struct
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,12 @@ from tests.hosts.rig.boot_settings import BootSettings
 from tests.hosts.rig.cgroups import HostCgroups
 from tests.hosts.rig.namespaces import TestNetwork
 from tests.hosts.rig.requirements import SEARCH_PATH
+from tests.support.shifted_clock import (
+    LIBRARY,
+    clock_environment,
+    compile_clock,
+    set_clock_offset,
+)
 from tests.support.waiting import wait_until
 
 BOOT = Path(__file__).with_name("boot.py")
@@ -209,13 +215,14 @@ class SimulatedHost:
         """End `cut_link`."""
         self._network.set_forwarding(self._link, on=True)
 
-    def netem(self, *, loss: float = 0.0, delay_ms: float = 0.0) -> None:
+    @contextmanager
+    def netem(self, *, loss: float = 0.0, delay_ms: float = 0.0) -> Iterator[None]:
         """Lose packets to and from the host with this probability, delay the others each way."""
         self._network.impair(self._link, self._pid, loss, delay_ms / 1e3)
-
-    def end_netem(self) -> None:
-        """End `netem`."""
-        self._network.restore(self._link, self._pid)
+        try:
+            yield
+        finally:
+            self._network.restore(self._link, self._pid)
 
     @property
     def _pid(self) -> int:
@@ -230,19 +237,13 @@ class SimulatedHost:
         The first call shifts it for what is started later by SSH, `run` or the manager; further
         calls shift it at once.
         """
-        clock = self._files / "clock"
-        is_first = not clock.exists()
-        with clock.open("r+b" if clock.exists() else "wb") as file:
-            file.write(struct.pack("=q", int(seconds * 1e9)))
+        is_first = not (self._files / LIBRARY).exists()
+        if is_first:
+            compile_clock(self._files)
+        set_clock_offset(self._files, seconds)
         if not is_first:
             return
-        source, library = Path(__file__).with_name("shifted_clock.c"), self._files / "clock.so"
-        compile_ = ("cc", "-O2", "-shared", "-fPIC", "-o", str(library), str(source))
-        subprocess.run(compile_, check=True)
-        self.environment |= {
-            "LD_PRELOAD": "/run/host/clock.so",
-            "CLOCK_OFFSET_FILE": "/run/host/clock",
-        }
+        self.environment |= clock_environment("/run/host")
         self.write_sshd_config()
         if self.settings.manager:
             words = [f"{name}={value}" for name, value in self.environment.items()]

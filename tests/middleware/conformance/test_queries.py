@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
+from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.errors import (
     AmbiguousServer,
     InterfaceMismatch,
@@ -17,7 +18,7 @@ from robocomp_dsl.runtime.errors import (
 )
 from tests.middleware.network import DEADLINE, Network
 from tests.middleware.probe_handlers import HANDLERS, blocked
-from tests.middleware.probe_types import OTHER_PROBE, PROBE, Broken
+from tests.middleware.probe_types import PROBE, Broken
 from tests.support.waiting import wait_until
 
 pytestmark = [pytest.mark.feature("Queries and commands"), pytest.mark.needs("services")]
@@ -135,7 +136,43 @@ def test_query_times_out_without_reply(network: Network) -> None:
     assert second.add(1, 1) == 2
 
 
-def test_different_interface_shapes_raise_interface_mismatch(network: Network) -> None:
-    network.node("server").serve(HANDLERS, OTHER_PROBE)
-    with pytest.raises(InterfaceMismatch, match=r"client and server .*Test::Probe"):
-        network.node("client").probe().add(1, 2)
+PICK = rt.Operation("pick", inputs={"x": rt.Double, "y": rt.Int}, returns=rt.Double)
+OLD_VERSION = rt.Interface(
+    "Test::Versions",
+    rt.Operation("second", inputs={"a": rt.Int}, returns=rt.Int),
+    PICK,
+    rt.Operation("gone", returns=rt.Int),
+    rt.Operation("note", rt.Pattern.COMMAND, {"text": rt.String}),
+    rt.Operation("changed", inputs={"x": rt.Double}, returns=rt.Int, units={"x": "m"}),
+    rt.Operation("reset", rt.Pattern.COMMAND, {"x": rt.Double}),
+)
+NEW_VERSION = rt.Interface(
+    "Test::Versions",
+    rt.Operation("added", returns=rt.Int),
+    rt.Operation("note", rt.Pattern.COMMAND, {"text": rt.String}),
+    rt.Operation("second", inputs={"a": rt.Int}, returns=rt.Int),
+    rt.Operation("pick", inputs={"x": rt.Double, "y": rt.Int}, returns=rt.Double),
+    rt.Operation("changed", inputs={"x": rt.Double}, returns=rt.Int, units={"x": "mm"}),
+    rt.Operation("reset", rt.Pattern.COMMAND, {"x": rt.Double, "y": rt.Double}),
+)
+
+
+@pytest.mark.needs("services")
+def test_operations_that_did_not_change_work_between_versions(network: Network) -> None:
+    noted: list[str] = []
+    handlers = {"second": lambda a: a + 1, "pick": lambda x, y: x * y, "note": noted.append}
+    network.node("server").serve(handlers, NEW_VERSION, "Versions")
+    client = network.node("client")
+    channel = client.ports.proxy(client.at(OLD_VERSION, "Versions"))
+    call = {operation.name: channel.bind(operation) for operation in OLD_VERSION.operations}
+    assert call["second"](4) == 5
+    assert call["pick"](1.5, 4) == 6.0
+    call["note"]("later")
+    wait_until(lambda: noted == ["later"])
+    with pytest.raises(InterfaceMismatch, match=r"Test::Versions\.gone: server does not have"):
+        call["gone"]()
+    with pytest.raises(InterfaceMismatch, match=r"changed: `x` is in m here, but in mm there"):
+        call["changed"](1.0)
+    with pytest.raises(InterfaceMismatch, match=r"reset: the input `y` \(`double`\) is new there"):
+        call["reset"](1.0)
+    assert call["second"](5) == 6

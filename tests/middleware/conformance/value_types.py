@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -42,6 +42,26 @@ class Tree(rt.Struct):
     points: PointList = rt.default()
 
 
+Samples = Annotated[rt.Float64Array, rt.MaxLength(10)]
+Waypoints = Annotated[list[Point], rt.MaxLength(2)]
+
+
+class Estimate(rt.Struct):
+    """Unsigned numbers, fixed arrays and bounded sequences."""
+
+    number: rt.UInt32 = 0
+    covariance: Annotated[rt.Float64Array, rt.Length(36)] = rt.default()
+    pixel: rt.UInt16 = 65535
+    stamp: rt.UInt64 = 2**64 - 1
+    raw: Annotated[rt.UInt16Array, rt.Length(3)] = rt.default()
+    flags: Annotated[rt.BoolArray, rt.Length(2)] = rt.default()
+    names: Annotated[list[rt.String], rt.Length(2)] = rt.default()
+    colors: Annotated[list[Color], rt.Length(3)] = rt.default()
+    corners: Annotated[list[Point], rt.Length(4)] = rt.default()
+    history: Samples = rt.default()
+    path: Waypoints = rt.default()
+
+
 class Failure(rt.DeclaredError):
     reason: rt.String = ""
     codes: rt.Int32Array = rt.default()
@@ -59,23 +79,32 @@ TYPES: dict[str, Any] = {
     "short": rt.SHORT,
     "int": rt.INT,
     "long": rt.LONG,
+    "unsigned_short": rt.UINT16,
+    "unsigned_int": rt.UINT32,
+    "unsigned_long": rt.UINT64,
     "float": rt.FLOAT,
     "double": rt.DOUBLE,
     "string": rt.STRING,
     "enum": Color,
     "struct": Reading,
     "nested": Tree,
+    "estimate": Estimate,
     "bools": rt.Array(rt.BOOL),
     "bytes": rt.Array(rt.BYTE),
     "shorts": rt.Array(rt.SHORT),
     "ints": rt.Array(rt.INT),
     "longs": rt.Array(rt.LONG),
+    "unsigned_shorts": rt.Array(rt.UINT16),
+    "unsigned_ints": rt.Array(rt.UINT32),
+    "unsigned_longs": rt.Array(rt.UINT64, bound=4),
     "floats": rt.Array(rt.FLOAT),
     "doubles": rt.Array(rt.DOUBLE),
     "strings": rt.Sequence(rt.STRING),
     "enums": rt.Sequence(Color),
     "structs": rt.Sequence(Reading),
     "points": PointList,
+    "waypoints": rt.Sequence(Point, bound=2),
+    "names": rt.Sequence(rt.STRING, bound=3),
     "rows": rt.Sequence(rt.Array(rt.DOUBLE)),
     "by_name": rt.Dictionary(rt.STRING, Reading),
     "by_number": rt.Dictionary(rt.INT, rt.STRING),
@@ -84,6 +113,7 @@ TYPES: dict[str, Any] = {
 """One operation each, which returns its argument."""
 
 _TEXT = "ñandú 机器人 🤖 \x00 \n e\u0301"
+_CORNERS = [Point(1.5, -2.0, 3), Point(0.25, 1024.0, -32768)]
 _POINTS = [Point(1.5, -2.0, 3), Point(0.0, 1e30, -32768)]
 READING = Reading(_TEXT, _POINTS[0], Color.BLUE, np.array([1.0, math.inf]), ["", "two"], True)
 
@@ -92,12 +122,29 @@ def _array(*values: Any, dtype: Any) -> Any:
     return np.array(values, dtype)
 
 
+ESTIMATE = Estimate(
+    2**32 - 1,
+    np.arange(36) / 7,
+    1,
+    2**63,
+    _array(0, 1, 2**16 - 1, dtype=np.uint16),
+    _array(True, False, dtype=np.bool_),
+    ["", _TEXT],
+    [Color.BLUE, Color.RED, Color.GREEN],
+    [*_CORNERS, *_CORNERS],
+    _array(1.5, math.inf, dtype=np.float64),
+    _CORNERS[:1],
+)
+
 VALUES: dict[str, tuple[Any, ...]] = {
     "bool": (True, False),
     "byte": (0, 255),
     "short": (-(2**15), 2**15 - 1),
     "int": (-(2**31), 2**31 - 1),
     "long": (-(2**63), 2**63 - 1),
+    "unsigned_short": (0, 2**16 - 1),
+    "unsigned_int": (0, 2**32 - 1),
+    "unsigned_long": (0, 2**64 - 1),
     "float": (-0.0, 1.5, math.inf, -math.inf, math.nan),
     "double": (1e-310, 1e308, math.inf, math.nan),
     "string": ("", _TEXT, "x" * 100_000),
@@ -112,17 +159,23 @@ VALUES: dict[str, tuple[Any, ...]] = {
             PointList(_POINTS),
         ),
     ),
+    "estimate": (Estimate(), ESTIMATE),
     "bools": (_array(dtype=np.bool_), _array(True, False, dtype=np.bool_)),
     "bytes": (_array(dtype=np.uint8), _array(0, 255, dtype=np.uint8)),
     "shorts": (_array(dtype=np.int16), _array(-(2**15), 2**15 - 1, dtype=np.int16)),
     "ints": (_array(dtype=np.int32), _array(-(2**31), 2**31 - 1, dtype=np.int32)),
     "longs": (_array(dtype=np.int64), _array(-(2**63), 2**63 - 1, dtype=np.int64)),
+    "unsigned_shorts": (_array(dtype=np.uint16), _array(0, 2**16 - 1, dtype=np.uint16)),
+    "unsigned_ints": (_array(dtype=np.uint32), _array(0, 2**32 - 1, dtype=np.uint32)),
+    "unsigned_longs": (_array(dtype=np.uint64), _array(0, 2**64 - 1, dtype=np.uint64)),
     "floats": (_array(dtype=np.float32), _array(0, math.nan, -math.inf, dtype=np.float32)),
     "doubles": (_array(dtype=np.float64), _array(-0.0, math.nan, 1e308, dtype=np.float64)),
     "strings": ([], ["", _TEXT]),
     "enums": ([], list(Color)),
     "structs": ([], [Reading(), READING]),
     "points": (PointList(), PointList(_POINTS)),
+    "waypoints": ([], _CORNERS),
+    "names": ([], ["", _TEXT, "three"]),
     "rows": ([], [_array(dtype=np.float64), _array(1.5, dtype=np.float64)]),
     "by_name": ({}, {"": Reading(), _TEXT: READING}),
     "by_number": ({}, {-(2**31): "", 2**31 - 1: _TEXT}),

@@ -152,8 +152,17 @@ def test_unsigned_arrays_are_wider_in_a_bottle() -> None:
         -5,
         np.array([True, False]),
     )
-    with pytest.raises(EncodeError, match=r"large\[0\]: 9223372036854775808 does not fit"):
-        item_converter(Unsigned)(Unsigned(large=[1 << 63]))
+
+
+def test_uint64_has_the_bits_of_an_int64_in_a_bottle() -> None:
+    items = item_converter(Unsigned)(Unsigned(large=[1 << 63, (1 << 64) - 1]))
+    assert items[2].tolist() == [-(1 << 63), -1]
+    received = value_converter(Unsigned)(read_binary(write_binary(items), PROFILE_3))
+    assert received.large.tolist() == [1 << 63, (1 << 64) - 1]
+    written = value_converter(rt.UINT64)
+    assert (written(-1), written((1 << 64) - 1)) == ((1 << 64) - 1,) * 2
+    with pytest.raises(MalformedMessage, match="does not fit"):
+        written(1 << 64)
 
 
 class Limited(rt.Struct):
@@ -163,11 +172,11 @@ class Limited(rt.Struct):
 
 def test_lengths_are_checked_in_a_bottle() -> None:
     assert schema_of(Limited) is Limited
-    with pytest.raises(EncodeError, match="four: takes exactly 4 elements, not 1"):
+    with pytest.raises(EncodeError, match="four: has 1 value, it needs 4"):
         item_converter(Limited)(Limited([1.0]))
-    with pytest.raises(EncodeError, match="names: takes at most 1 elements, not 2"):
+    with pytest.raises(EncodeError, match="names: has 2 values, at most 1"):
         item_converter(Limited)(Limited(names=["a", "b"]))
-    with pytest.raises(MalformedMessage, match="takes exactly 4 elements, not 1"):
+    with pytest.raises(MalformedMessage, match="has 1 value, it needs 4"):
         value_converter(Limited)(read_text("(1.0) ()"))
-    with pytest.raises(MalformedMessage, match="takes at most 1 elements, not 2"):
+    with pytest.raises(MalformedMessage, match="has 2 values, at most 1"):
         value_converter(Limited)(read_text("(1.0 2.0 3.0 4.0) (a b)"))

@@ -192,47 +192,6 @@ def test_model_file_reports_assumptions(
 
 SHOWN = "<robot><link name='a'><visual>\n<geometry><mesh filename='{}' scale='2 1 1'/></geometry>"
 SHOWN += "</visual></link></robot>"
-HUNG = "<mujoco><asset>\n<mesh name='m' file='{}' scale='2 1 1'/></asset><worldbody>"
-HUNG += "<geom type='mesh' mesh='m' pos='0 0 1'/></worldbody></mujoco>"
-OSG = "VertexArray Vec3Array 2 { 0 0 0 1 2 3 }"
-DAE = """<COLLADA xmlns="c"><asset><unit meter="0.01"/><up_axis>Z_UP</up_axis></asset>
-<library_geometries><geometry id="g"><mesh><source id="p"><float_array>0 0 0 100 200 300
-</float_array></source><vertices><input semantic="POSITION" source="#p"/></vertices></mesh>
-</geometry></library_geometries><library_visual_scenes><visual_scene><node>
-<translate>0 0 100</translate><instance_geometry url="#g"/></node></visual_scene>
-</library_visual_scenes></COLLADA>"""
-
-
-@pytest.mark.parametrize("text", [SHOWN, HUNG], ids=["urdf", "mjcf"])
-@pytest.mark.parametrize(
-    ("file", "content", "message", "half", "centre"),
-    [
-        ("gone.stl", None, "is a box of 0.2 x 0.1 x 0.1 m: No such file", (0.1, 0.05, 0.05), 0),
-        ("a.ive", "x", "`.ive` files cannot be read; convert it", (0.1, 0.05, 0.05), 0),
-        ("a.osg", OSG, "is its bounding box; convert it to .obj", (1, 1, 1.5), (1, 1, 1.5)),
-        ("a.dae", DAE, "is its bounding box; convert it to .obj", (1, 1, 1.5), (1, 1, 2.5)),
-        ("a.dae", "<COLLADA", "the file is damaged", (0.1, 0.05, 0.05), 0),
-    ],
-)
-def test_model_file_replaces_unreadable_mesh_by_box(
-    tmp_path: Path,
-    text: str,
-    file: str,
-    content: str | None,
-    message: str,
-    half: object,
-    centre: object,
-) -> None:
-    if content:
-        (tmp_path / file).write_text(content)
-    loaded = load(tmp_path, text.format(file))
-    assert [(finding.kind, finding.location.line) for finding in loaded.findings] == [("mesh", 2)]
-    assert message in loaded.findings[0].message
-    model = loaded.model
-    assert model.geom_type[0] == GEOM.mjGEOM_BOX
-    assert model.geom_size[0] == pytest.approx(half)
-    lifted = [0, 0, 1] if text is HUNG else [0, 0, 0]
-    assert model.geom_pos[0] - lifted == pytest.approx(np.ones(3) * centre)
 
 
 @pytest.mark.parametrize("home", ["packages/arm/meshes", "meshes", "work/share/arm/meshes"])

@@ -9,6 +9,7 @@ import pytest
 from robocomp_dsl.simulation.robots.build import add_robot, new_world, set_pose
 from robocomp_dsl.simulation.robots.catalog import ROBOTS, description, facts
 from robocomp_dsl.tactile.description.check import compare
+from robocomp_dsl.tactile.description.coverage import covered
 from robocomp_dsl.tactile.errors import DescriptionError
 from tests.simulation.models.simulated_robot import PI, TENTH_MM, SimulatedRobot
 
@@ -92,8 +93,34 @@ def test_robot_skin_lies_on_body(name, side):
         out /= np.linalg.norm(out)
         skin = body.xpos + turn @ limb.to_body(field.centre)
         hit = np.zeros(1, np.int32)
-        away = mujoco.mj_ray(robot.model, robot.data, skin + 0.02 * out, -out, None, 1, -1, hit)
-        assert away - 0.02 == pytest.approx(0.0, abs=0.004), field.name
+        # from a point so near that it is not in the trunk, which may be 8 mm away
+        away = mujoco.mj_ray(robot.model, robot.data, skin + 0.006 * out, -out, None, 1, -1, hit)
+        assert away - 0.006 == pytest.approx(0.0, abs=0.004), field.name
+
+
+@pytest.mark.parametrize(("name", "side"), SIDES)
+def test_robot_fields_cover_skin_of_every_limb(name, side):
+    """63 to 79 % of the taxels of the upper arms, and 22 % of NAO's forearm, had no field.
+
+    Of NAO's forearm 5 % still have none: neighbouring fields must not contain their centres.
+    """
+    part = description(name).part(side)
+    for limb in part.limbs:
+        share = 1.0 - covered(limb, part).mean()
+        assert share <= (0.051 if limb.name == "lower_arm" else 0.0), limb.name
+
+
+def test_robot_fields_are_the_same_on_both_sides_and_all_robots():
+    """A long limb has a second row of fields."""
+    named = [
+        {
+            field.name.removesuffix("_distal"): tuple(field.motion)
+            for field in description(name).part(side).fields
+        }
+        for name, side in SIDES
+    ]
+    assert len(named[0]) == 8
+    assert all(fields == named[0] for fields in named)
 
 
 @pytest.mark.parametrize(("name", "side"), SIDES)

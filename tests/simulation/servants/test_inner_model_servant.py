@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.hardware.kinematics.transforms import TransformTree
+from tests.hardware.mesh_files import TETRAHEDRA
 from tests.simulation.served_worlds import ROOM, Served, served
 
 CUBE = "solid c\n" + "\n".join(
@@ -242,6 +243,18 @@ def test_inner_model_servant_reports_error_codes_and_changes_nothing(
     assert world.simulation.state.scene is scene
     world.simulation.advance(0.1)
     assert np.isfinite(world.simulation.world.data.qpos).all()
+
+
+def test_inner_model_servant_finds_mesh_of_other_computer(
+    world: Served, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "osgModels").mkdir()
+    (tmp_path / "osgModels" / "a.3ds").write_bytes(TETRAHEDRA["a.3ds"])
+    path = "/home/robocomp/robocomp/files/osgModels/a.3ds"
+    mesh = world.types.meshType(pose(world, 0, 0, 0, 0, 0, 0), 1, 1, 1, 0, path)
+    assert mistake(world, "addMesh", "new", "root", mesh) == "InvalidPath"
+    monkeypatch.setenv("ROBOCOMP_FILES", str(tmp_path))
+    assert world.ports["InnerModelManager"].addMesh("new", "root", mesh)
 
 
 def test_inner_model_servant_reports_unreadable_mesh_as_invalid_path(world: Served) -> None:

@@ -36,7 +36,7 @@ def arm(tmp_path: Path) -> Served:
 def test_joint_holds_its_place_from_the_start(arm: Served) -> None:
     arm.simulation.advance(1.0)
     state = arm.ports["ControlBoard"].getState()
-    assert np.abs(state.position - [0, 0, 0.05]).max() < 1e-6
+    assert np.abs(state.position - [0.2, 0, 0.05]).max() < 1e-6
     assert {mode.name for mode in state.modes} == {"Position"}
 
 
@@ -109,7 +109,7 @@ def test_joint_servant_refuses_invalid_commands(
         getattr(arm.ports["JointMotor"], operation)(getattr(arm.types, type_)(*goal))
     assert type(raised.value).__name__.startswith(error)
     arm.simulation.advance(0.5)
-    assert np.abs(arm.ports["ControlBoard"].getState().position - [0, 0, 0.05]).max() < 1e-6
+    assert np.abs(arm.ports["ControlBoard"].getState().position - [0.2, 0, 0.05]).max() < 1e-6
 
 
 def test_joint_servant_moves_all_motors_or_none(arm: Served) -> None:
@@ -227,5 +227,5 @@ def test_joint_servant_refuses_unreachable_number(arm: Served, operation: str) -
     with pytest.raises(arm.types.RoboCompControlBoard_Refused, match="nothing here reaches"):
         getattr(board, operation)("elbow", 1e308)
     arm.simulation.advance(0.1)
-    assert np.abs(board.getState().position - [0, 0, 0.05]).max() < 1e-6
+    assert np.abs(board.getState().position - [0.2, 0, 0.05]).max() < 1e-6
     assert not any(warning.number for warning in arm.simulation.world.data.warning)

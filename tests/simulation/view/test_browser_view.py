@@ -65,6 +65,26 @@ def test_browser_view_reports_occupied_port() -> None:
             BrowserPage("crane", model, mujoco.MjData(model), port=other.getsockname()[1])
 
 
+def test_browser_view_shows_markers_of_missing_meshes(tmp_path: Path) -> None:
+    file = tmp_path / "a.xml"
+    file.write_text(
+        "<mujoco><asset><mesh name='m' file='gone.obj'/></asset><worldbody><body name='b'>"
+        "<geom type='mesh' mesh='m' pos='1 2 3'/></body></worldbody></mujoco>"
+    )
+    model = load_model(file).model
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    page = BrowserPage("a", model, data)
+    try:
+        markers = [name for name in page._server.scene._handle_from_node_name if "missing" in name]
+        assert markers == ["/world/b/gone.obj 1:missing mesh"]
+        handle = page._server.scene._handle_from_node_name[markers[0]]
+        assert handle.position.tolist() == [1, 2, 3]
+        assert max(handle.dimensions) <= 0.03 * page.stage.extent
+    finally:
+        page.close()
+
+
 def test_browser_view_nodes_follow_model_hierarchy(page: BrowserPage) -> None:
     assert page.stage.paths == [
         "/world",

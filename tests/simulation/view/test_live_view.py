@@ -18,6 +18,7 @@ from robocomp_dsl.simulation.view.nodes import quaternion
 from robocomp_dsl.simulation.world import visual_state
 from tests.simulation.served_worlds import Served, served
 from tests.simulation.view.live_world import WORLD, SimulationPort
+from tests.support.waiting import wait_until
 
 
 @pytest.fixture
@@ -117,13 +118,35 @@ def test_live_view_moves_node_of_world(live: LivePage) -> None:
     assert page.stage.relative[page.model.body("robot").id, 3:] == pytest.approx(quat, abs=1e-6)
 
 
+def test_live_view_moves_falling_body_in_the_root(live: LivePage) -> None:
+    """It starts in a frame of InnerModel, but MuJoCo has it in the world."""
+    world, page = world_of(live), live.page
+    nodes, pose = world.ports["InnerModelManager"], world.types.Pose3D(1000, 0, 0, 0, 1.0, 0)
+    nodes.addTransform("shelf", "static", "floor", pose)
+    pose = world.types.Pose3D(0, 3000, 0, 0, 0, 0)
+    nodes.addTransform("ball", "bullet", "shelf", pose)
+
+    def is_shown() -> bool:
+        live.refresh()
+        return "ball" in page.stage.names
+
+    wait_until(is_shown)
+    page.controls.place(
+        page.model.body("ball").id, np.array([0.25, -0.5, 2.0]), quaternion((0.0, 0.0, 0.5))
+    )
+    found = world.ports["Simulation"].getPoses(0, ["ball"])[0]
+    assert (found.x, found.y, found.z) == pytest.approx((250, 2000, -500))
+    world.simulation.advance(0.02)  # it can fall on
+    assert world.ports["Simulation"].getPoses(0, ["ball"])[0].y < 2000
+
+
 def test_live_view_reports_impossible_requests(live: LivePage) -> None:
     far = live.page.controls._remote
     assert far
     far.move("nobody", 1.0, turns=True)
     live.refresh()
     assert text(live).endswith("the command failed: there is no joint `nobody`")
-    far.place("nobody", np.zeros(3), np.array([1.0, 0, 0, 0]))
+    far.place("nobody", "", np.zeros(3), np.array([1.0, 0, 0, 0]))
     live.refresh()
     assert "the command failed" in text(live)
     assert "`nobody`" in text(live)

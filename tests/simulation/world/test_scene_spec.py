@@ -4,12 +4,14 @@ import mujoco
 import numpy as np
 import pytest
 
-from robocomp_dsl.hardware.description.scene import Box, Frame, Mesh, Motion, Scene
+from robocomp_dsl.hardware.description.scene import Box, Device, Frame, Mesh, Motion, Scene
 from robocomp_dsl.hardware.devices.errors import SceneError
 from robocomp_dsl.hardware.kinematics.transforms import TransformTree
+from robocomp_dsl.simulation.models.mesh_marker import marked_meshes
 from robocomp_dsl.simulation.scene import axes
 from robocomp_dsl.simulation.scene.scene_shapes import rotation_to_normal
 from robocomp_dsl.simulation.scene.scene_spec import build_spec
+from robocomp_dsl.simulation.world.simulation import Simulation
 
 ROOT = Frame("root", "")
 
@@ -134,29 +136,61 @@ def test_scene_spec_mesh_is_placed_like_in_viewer(tmp_path) -> None:  # type: ig
     assert points.max(axis=0) == pytest.approx([0.12, 0.3, 0.2], abs=1e-6)
 
 
-@pytest.mark.parametrize(
-    ("file", "content", "message"),
-    [
-        ("a.ive", "x", "is a box: `.ive` files cannot be read"),
-        ("gone.obj", None, "is a box: No such file"),
-        ("a.osg", "VertexArray Vec3Array 2 { 0 0 0 1 2 3 }", "is its bounding box"),
-    ],
-)
-def test_scene_spec_replaces_unreadable_mesh_by_box(  # type: ignore[no-untyped-def]
-    tmp_path, file: str, content: str | None, message: str
-) -> None:
-    path = tmp_path / file
-    if content:
-        path.write_text(content)
+def test_scene_spec_replaces_mesh_without_faces_by_box(tmp_path) -> None:  # type: ignore[no-untyped-def]
+    path = tmp_path / "a.osg"
+    path.write_text("VertexArray Vec3Array 2 { 0 0 0 1 2 3 }")
     mesh = Mesh("m", "root", str(path), scale=(100, 100, 100), collide=True)
     spec, notes = build_spec(Scene((ROOT,), meshes=(mesh,)))
-    assert len(notes) == 1
-    assert message in notes[0]
+    assert notes == ["the mesh `m` (a.osg) is its bounding box: its faces are not read; use .obj"]
     model = spec.compile()
     assert model.geom("m").type[0] == mujoco.mjtGeom.mjGEOM_BOX
-    if file == "a.osg":
-        assert model.geom("m").size == pytest.approx([0.05, 0.15, 0.1])
-        assert model.geom("m").pos == pytest.approx([0.05, -0.15, 0.1])
+    assert model.geom("m").size == pytest.approx([0.05, 0.15, 0.1])
+    assert model.geom("m").pos == pytest.approx([0.05, -0.15, 0.1])
+
+
+@pytest.mark.parametrize(
+    ("file", "note"),
+    [
+        ("gone.obj", ""),  # the search for files reports it
+        ("a.xyz", "the mesh `m` (a.xyz) is a small marker: `.xyz` files cannot be read; convert"),
+        ("a.obj", "the mesh `m` (a.obj) is a small marker: the file has no points"),
+    ],
+)
+def test_scene_spec_replaces_unreadable_mesh_by_marker(  # type: ignore[no-untyped-def]
+    tmp_path, file: str, note: str
+) -> None:
+    """It was a box of 1 m: its scale in mm."""
+    if note:
+        (tmp_path / file).write_text("x")
+    place = Frame("f", "root", (0, 500, 0))
+    mesh = Mesh("m", "f", str(tmp_path / file), (100, 0, 0), scale=(1000, 1000, 1000), collide=True)
+    spec, notes = build_spec(Scene((ROOT, place), meshes=(mesh,)))
+    assert [text.startswith(note) for text in notes] == [True] * bool(note)
+    model = spec.compile()
+    assert marked_meshes(model) == {0: "m"}
+    assert (model.ngeom, model.nsite) == (0, 1)
+    assert model.site_pos[0] == pytest.approx([0.1, 0, 0])
+    assert model.site_size[0] == pytest.approx([0.01] * 3)
+
+
+def test_scene_spec_has_one_note_for_meshes_with_the_same_problem(tmp_path) -> None:  # type: ignore[no-untyped-def]
+    files = [tmp_path / f"{i}.xyz" for i in range(9)]
+    for file in files:
+        file.write_text("x")
+    meshes = tuple(Mesh(f"m{i}", "root", str(files[i % 9])) for i in range(40))
+    _, notes = build_spec(Scene((ROOT,), meshes=meshes))
+    assert len(notes) == 1
+    assert notes[0].startswith(
+        "9 meshes, `m0` (0.xyz), `m1` (1.xyz), `m2` (2.xyz), `m3` (3.xyz) and 5 more, are each a"
+    )
+
+
+def test_scene_spec_marker_is_not_seen_by_laser() -> None:
+    """The box that stood for a mesh was."""
+    laser = Device("l", "laser", "root", {"measures": 9, "angle": 1.0, "min": 10, "max": 4000})
+    mesh = Mesh("m", "root", "gone.obj", (0, 0, 1000), scale=(1000, 1000, 1000))
+    simulation = Simulation(Scene((ROOT,), meshes=(mesh,), devices=(laser,)))
+    assert set(simulation.devices["l"].scan().distances) == {4000.0}
 
 
 def test_scene_spec_builds_flat_mesh_and_flat_plane(tmp_path) -> None:  # type: ignore[no-untyped-def]
@@ -222,11 +256,10 @@ def test_scene_spec_texture_leaves_plane_in_place(tmp_path) -> None:  # type: ig
     assert materials == [[-1] * 4, [0] * 4]
     assert model.mat_texrepeat[0] == pytest.approx([2, 2])
     assert model.tex_data[:3] == pytest.approx([200, 100, 50], abs=6)  # MuJoCo begins below
-    for name, message in (("gone.png", "No such file"), ("no.jpg", "it is no picture")):
+    for name, messages in (("gone.png", []), ("no.jpg", ["it is no picture"])):
         box = Box("b", "root", (1, 1, 1), texture=str(tmp_path / name))
         _, notes = build_spec(Scene((ROOT,), (box,)))
-        assert len(notes) == 1
-        assert message in notes[0]
+        assert [note.rpartition(": ")[2] for note in notes] == messages
 
 
 def test_scene_spec_notes_falling_body_without_mass() -> None:
@@ -235,8 +268,8 @@ def test_scene_spec_notes_falling_body_without_mass() -> None:
 
 
 @pytest.mark.parametrize("scale", [(float("inf"), 1, 1), (1e300, 1, 1), (float("nan"), 1, 1)])
-def test_scene_spec_replaces_mesh_of_invalid_scale_by_box(tmp_path, scale) -> None:  # type: ignore[no-untyped-def]
+def test_scene_spec_replaces_mesh_of_invalid_scale_by_marker(tmp_path, scale) -> None:  # type: ignore[no-untyped-def]
     mesh = Mesh("m", "root", cube(tmp_path), scale=scale)
     spec, notes = build_spec(Scene((ROOT,), meshes=(mesh,)))
-    assert "is a box: no world holds it with the scale" in notes[0]
-    assert spec.compile().geom("m").type[0] == mujoco.mjtGeom.mjGEOM_BOX
+    assert "is a small marker: no world holds it with the scale" in notes[0]
+    assert marked_meshes(spec.compile()) == {0: "m"}

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     help="Output folder; default: NAME.",
 )
 @options.packages
+@options.world_folders
 @options.output_format
 @options.folders
 def command(
@@ -50,6 +51,7 @@ def command(
     like: str,
     output: Path | None,
     packages: tuple[Path, ...],
+    world_folders: tuple[Path, ...],
     output_format: str,
     folders: tuple[Path, ...],
 ) -> None:
@@ -66,7 +68,7 @@ def command(
     if not name.isidentifier():
         raise click.UsageError(f"`{name}` cannot name a component: use letters, digits and _")
     input_report, report = Report(), Report()
-    workspace = Workspace(folders)
+    workspace = Workspace(folders, world_folders=world_folders)
     driver = build_simulator(Path(file), packages, workspace, input_report, report, strict=False)
     input_report.extend(report)
     options.print_findings(input_report.sorted(), output_format, sys.stderr)
@@ -123,11 +125,12 @@ def known_properties(driver: DriverComponent) -> dict[str, object]:
     """The static properties of the simulated device, such as its limits."""
     from robocomp_dsl.generate.simulator.simulator import world_files  # noqa: PLC0415 - late
     from robocomp_dsl.generate.write import write  # noqa: PLC0415
+    from robocomp_dsl.hardware.description.scene import Scene  # noqa: PLC0415
     from robocomp_dsl.simulation.world.simulation import Simulation  # noqa: PLC0415 - MuJoCo
 
     with tempfile.TemporaryDirectory() as folder:
         write(Path(folder), world_files(driver.simulator, "world"))
-        simulation = Simulation.read(Path(folder, "world", "scene.json"))
+        simulation = Simulation(Scene.of_data(driver.simulator.scene, Path(folder, "world")))
     device = simulation.devices[driver.ids[0]]
     if driver.motors:
         return {"spec": device.board.spec.part(driver.ids)}

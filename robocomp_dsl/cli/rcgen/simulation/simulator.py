@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import click
 
+from robocomp_dsl.check.codes import model_files as model_codes
 from robocomp_dsl.check.passes import check_cdsl, check_innermodel
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcgen.simulation.recovery_summary import summarise_recovery
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate import codes, codes_model
+from robocomp_dsl.generate import codes
 from robocomp_dsl.hardware.description.model_kind import MODELS, root_tag
 from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.source import Source, Span
@@ -46,6 +47,7 @@ if TYPE_CHECKING:
     "--dry-run", is_flag=True, help="Write nothing; list the interfaces that would be served."
 )
 @options.packages
+@options.world_folders
 @click.option(
     "--tactile",
     type=click.Path(readable=False, path_type=Path),
@@ -67,6 +69,7 @@ def command(
     output: Path | None,
     dry_run: bool,
     packages: tuple[Path, ...],
+    world_folders: tuple[Path, ...],
     tactile: Path | None,
     also: tuple[str, ...],
     strict: bool,
@@ -82,7 +85,7 @@ def command(
     rewrite all files except `specificworker.py`, `README.md` and `etc/config.yaml`.
     """
     input_report, report = Report(), Report()
-    workspace = Workspace(folders)
+    workspace = Workspace(folders, world_folders=world_folders)
 
     def complete(simulator_: Simulator) -> Simulator:
         simulator_ = _with_skin(simulator_, tactile, workspace, report) if tactile else simulator_
@@ -139,7 +142,7 @@ def _world(
         return None
     from robocomp_dsl.generate.simulator.simulator import simulator  # noqa: PLC0415 - not for --help
 
-    simulator_ = complete(simulator(body))
+    simulator_ = complete(simulator(body, workspace.world_folders or ()))
     _build(simulator_, body, report)
     if input_report.has_errors and not report.has_errors:
         message = (
@@ -222,7 +225,7 @@ def _build(simulator_: Simulator, body: InnerModel, report: Report) -> None:
     for note in simulation.notes:
         report.add(codes.SIMPLIFIED_WORLD, place(note), note)
     for overlap in simulation.overlaps():
-        report.add(codes_model.MODEL_OVERLAP, place(overlap.message), overlap.message)
+        report.add(model_codes.MODEL_OVERLAP, place(overlap.message), overlap.message)
 
 
 def simulator_files(

@@ -33,7 +33,7 @@ def with_described_skin(
     robot = tactile.check_robot(source, report)
     if robot is None:
         return simulator_
-    tactile.check_against_facts(robot, _facts(simulator_.scene), source, report)
+    tactile.check_against_structure(robot, _facts(simulator_.scene), source, report)
     if not any(part.patches for part in robot.parts):
         report.add(codes.TACTILE_SYNTAX, source.file_span, "no part has a `skin`")
     return simulator_ if report.has_errors else with_skin(simulator_, lower_robot(robot))

@@ -83,6 +83,7 @@ def _size(_: click.Context, __: click.Parameter, written: str | None) -> tuple[i
     help="Open the page in the browser; default: on a terminal with a display.",
 )
 @options.packages
+@options.world_folders
 @options.output_format
 def command(
     *,
@@ -101,6 +102,7 @@ def command(
     port: int,
     browser: bool | None,
     packages: tuple[Path, ...],
+    world_folders: tuple[Path, ...],
     output_format: str,
 ) -> None:
     """Show a world, a robot or a running simulation in the browser, or save a screenshot.
@@ -123,7 +125,7 @@ def command(
 
         view_live.show(str(file or ""), domain, look, screenshot, size, port, opens=browser)
         return
-    subject = read_subject(file, packages, report)
+    subject = read_subject(file, packages, report, world_folders)
     options.print_findings(report.sorted(), output_format, sys.stderr)
     if subject is None:
         raise CliError(EXIT_FINDINGS)

@@ -10,22 +10,23 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from robocomp_dsl.check.passes import check_innermodel
-from robocomp_dsl.check.workspace.workspace import Workspace
-from robocomp_dsl.cli.rcgen.simulation.model_findings import (
+from robocomp_dsl.check.codes import model_files as codes
+from robocomp_dsl.check.model_file.model_findings import (
     code_of,
     read_source,
     report_error,
     report_findings,
 )
+from robocomp_dsl.check.passes import check_innermodel
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.finding import Finding
-from robocomp_dsl.generate import codes_model as codes
 from robocomp_dsl.generate.scene.scene import lower_body
 from robocomp_dsl.generate.scene.scene_files import resolve_files
 from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.hardware.description.model_kind import MODELS, root_tag
 from robocomp_dsl.hardware.description.scene import Scene
+from robocomp_dsl.hardware.description.world_files import FileSearch
 from robocomp_dsl.hardware.devices.errors import SceneError
 from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.simulation.models.model_file import compiled, read_spec
@@ -55,7 +56,9 @@ class Subject:
         return initial_data(self.model, self.start)
 
 
-def read_subject(path: Path, packages: Sequence[Path], report: Report) -> Subject | None:
+def read_subject(
+    path: Path, packages: Sequence[Path], report: Report, world_folders: Sequence[Path] = ()
+) -> Subject | None:
     """The model that `path` names; None if no part of it is valid."""
     if not path.exists() and str(path) in ROBOTS:
         return _robot(str(path))
@@ -67,7 +70,7 @@ def read_subject(path: Path, packages: Sequence[Path], report: Report) -> Subjec
         return None
     if root_tag(data) in MODELS:
         return _model(path, packages, report)
-    return _world(path, report)
+    return _world(path, world_folders, report)
 
 
 def _robot(name: str) -> Subject:
@@ -91,9 +94,9 @@ def _model(path: Path, packages: Sequence[Path], report: Report) -> Subject | No
     return Subject(path.stem, model, {})
 
 
-def _world(path: Path, report: Report) -> Subject | None:
+def _world(path: Path, world_folders: Sequence[Path], report: Report) -> Subject | None:
     """The model of a world; errors are reported, and the valid part is shown."""
-    body = check_innermodel(path, Workspace(()), report)
+    body = check_innermodel(path, Workspace((), world_folders=world_folders), report)
     if body is None or not body.has_root:
         return None
     if not body.root.children:
@@ -102,7 +105,7 @@ def _world(path: Path, report: Report) -> Subject | None:
     findings: list[Finding] = []
     try:
         data = lower_body(body)
-        resolve_files(data, path.parent)
+        resolve_files(data, FileSearch(path.parent, world_folders))
         scene, limit_notes = clamp_scene(Scene.of_data(data))
         spec, notes = build_spec(scene)
         place_cameras(scene, spec)

@@ -27,6 +27,7 @@ from robocomp_dsl.runtime.data.schema import (
     FLOAT,
     OCTET,
     STRING,
+    UINT64,
     Array,
     Dictionary,
     Enum,
@@ -149,6 +150,8 @@ def _scalar(type_: Primitive) -> FromItem:
             item = float(item)
         elif isinstance(item, float) and item.is_integer():
             item = int(item)
+        if type_ is UINT64:
+            item = _without_sign(item)
         try:
             value = as_scalar(type_, item)
         except EncodeError as error:
@@ -158,6 +161,12 @@ def _scalar(type_: Primitive) -> FromItem:
         return value if is_float else int(value)
 
     return number
+
+
+def _without_sign(item: Any) -> Any:
+    """A uint64 from the int64 with the same bits, as which a Bottle has it."""
+    is_negative = isinstance(item, int) and -(1 << 63) <= item < 0
+    return int(item) + (1 << 64) if is_negative else item
 
 
 def _text(item: Any) -> str:
@@ -198,8 +207,12 @@ def _array(element: Primitive) -> FromItem:
     def array(item: Any) -> Any:
         if element in {BYTE, OCTET} and isinstance(item, bytes | memoryview):
             return np.frombuffer(item, np.uint8)
+        items = _list_of(item)
+        if element is UINT64:
+            is_int64 = isinstance(items, np.ndarray) and items.dtype == np.int64
+            items = items.view(np.uint64) if is_int64 else [*map(_without_sign, items)]
         try:
-            return as_array(_list_of(item), dtype)
+            return as_array(items, dtype)
         except EncodeError as error:
             raise MalformedMessage(error.reason, error.path) from None
 

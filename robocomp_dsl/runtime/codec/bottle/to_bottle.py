@@ -9,6 +9,7 @@ where other programs differ.
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable
 from collections.abc import Sequence as Values
 from typing import Any, TypeAlias
@@ -52,9 +53,9 @@ _WIDTHS: dict[Primitive, type[Any]] = {INT8: Int8, SHORT: Int16, LONG: Int64, FL
 _WIDER: dict[Primitive, np.dtype[Any]] = {
     UINT16: np.dtype(np.int32),
     UINT32: np.dtype(np.int64),
-    UINT64: np.dtype(np.int64),
 }
-"""A Bottle has no unsigned numbers."""
+"""A Bottle has no unsigned numbers. A uint64 becomes the int64 with the same bits, as in YARP."""
+_BITS, _SAME_BITS = struct.Struct("<Q"), struct.Struct("<q")
 OK, FAIL = vocab("ok"), vocab("fail")
 
 
@@ -128,6 +129,8 @@ def _scalar(type_: Primitive, layout: Layout) -> ToItem:
     if type_ is BOOL and layout is Layout.THRIFT:
         return lambda value: OK if as_scalar(type_, value) else FAIL
     width = _WIDTHS.get(type_)
+    if type_ is UINT64:
+        return lambda value: Int64(_SAME_BITS.unpack(_BITS.pack(as_scalar(type_, value)))[0])
     if width is None:
         return lambda value: as_scalar(type_, value)
     return lambda value: width(as_scalar(type_, value))
@@ -145,8 +148,9 @@ def _array(type_: Array, layout: Layout) -> ToItem:
         if element is BOOL:
             flags = array.tolist()
             return [OK if flag else FAIL for flag in flags] if layout is Layout.THRIFT else flags
-        # Checked: a uint64 may be too large for the int64 that it becomes.
-        return array if wider is None else as_array(array, wider)
+        if element is UINT64:
+            return array.view(np.int64)
+        return array if wider is None else array.astype(wider)
 
     return convert
 

@@ -43,7 +43,7 @@ class Ros1Publisher:
             for record in at.external
             if record.middleware == MIDDLEWARE.name
         ]
-        for operation in at.interface.operations:
+        for operation in at.interface.published:
             of_operation: list[Publication] = []
             for each in dict.fromkeys(names):
                 topic = topic_of(each, at.interface, operation)

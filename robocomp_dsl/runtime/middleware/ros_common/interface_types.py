@@ -94,7 +94,7 @@ def check_interface(interface: Interface, *, published: bool = False) -> list[st
     `published`: as a topic, not as a service.
     """
     reasons = []
-    for operation in interface.operations:
+    for operation in interface.published if published else interface.operations:
         try:
             if is_topic(operation, published=published):
                 topic_type(operation)

@@ -42,7 +42,7 @@ class RosPublisher:
     def __init__(self, at: Endpoint, name: str, middleware: str, open_topic: OpenTopic) -> None:
         self.address = name
         self._open = open_topic
-        self._operations = at.interface.operations
+        self._operations = at.interface.published
         self._writers: dict[str, tuple[TopicWriter, ...]] = {o.name: () for o in self._operations}
         self._by_topic: dict[str, dict[str, TopicWriter]] = {}
         self._latest: dict[str, bytes] = {}

@@ -11,10 +11,12 @@ class DatasayReq(rt.Struct, type_id="RoboCompSpeech::DatasayReq"):
     override: rt.Bool = False  # Whether to stop what is being said now.
 
 
-class DatasayResp(rt.Struct, type_id="RoboCompSpeech::DatasayResp"):
+class DatasayResp(
+    rt.Struct, type_id="RoboCompSpeech::DatasayResp", units={"queued": "counts"}
+):
     """RoboCompSpeech::DatasayResp."""
 
-    queued: rt.Int = 0  # [sentences]
+    queued: rt.Int = 0  # [counts]
 
 
 class NoVoice(rt.DeclaredError, type_id="RoboCompSpeech::NoVoice"):
@@ -23,7 +25,9 @@ class NoVoice(rt.DeclaredError, type_id="RoboCompSpeech::NoVoice"):
     voice: rt.String = ""
 
 
-class Ray(rt.Struct, type_id="RoboCompRange::Ray"):
+class Ray(
+    rt.Struct, type_id="RoboCompRange::Ray", units={"angle": "rad", "distance": "mm"}
+):
     """One ray."""
 
     angle: rt.Float = 0.0  # [rad]

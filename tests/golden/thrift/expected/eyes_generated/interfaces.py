@@ -37,7 +37,11 @@ Binary = rt.UInt8Array
 Vector = rt.Float64Array
 
 
-class Status(rt.Struct, type_id="motor::Status"):
+class Status(
+    rt.Struct,
+    type_id="motor::Status",
+    units={"position": "deg", "velocity": "deg/s", "torques": "Nm"},
+):
     """What the motor measures."""
 
     position: rt.Double = 0.0  # [deg]
@@ -65,7 +69,7 @@ ListOfDouble = rt.Float64Array
 SetOfString = list[rt.String]
 
 
-class gaze_target(rt.Struct, type_id="gaze::gaze_target"):
+class gaze_target(rt.Struct, type_id="gaze::gaze_target", units={"x": "m", "y": "m"}):
     """gaze::gaze_target."""
 
     x: rt.Double = 0.0  # [m]
@@ -78,7 +82,7 @@ class gaze_names(rt.Struct, type_id="gaze::gaze_names"):
     name: rt.String = ""
 
 
-class gaze(rt.Struct, type_id="gaze::gaze"):
+class gaze(rt.Struct, type_id="gaze::gaze", units={"azimuth": "deg"}):
     """Where a head looks."""
 
     azimuth: rt.Double = 0.0  # [deg] positive to the left
@@ -106,6 +110,7 @@ MOTOR = rt.Interface(
         returns=rt.Bool,
         throws=(Blocked,),
         defaults={"speed": 10.0},
+        units={"angle": "deg"},
     ),
     rt.Operation(
         "follow",

@@ -4,7 +4,7 @@
 from robocomp_dsl.runtime import types as rt
 
 
-class Point(rt.Struct, type_id="RoboCompOther::Point"):
+class Point(rt.Struct, type_id="RoboCompOther::Point", units={"x": "m", "y": "m"}):
     """RoboCompOther::Point."""
 
     x: rt.Double = 0.0  # [m]
@@ -26,7 +26,7 @@ class Cell(rt.Struct, type_id="RoboCompOther::Cell"):
     name: rt.String = ""
 
 
-class Late(rt.DeclaredError, type_id="RoboCompOther::Late"):
+class Late(rt.DeclaredError, type_id="RoboCompOther::Late", units={"by": "ms"}):
     """RoboCompOther::Late."""
 
     by: rt.Int = 0  # [ms]
@@ -47,7 +47,7 @@ class Plain(rt.Enum):
     B = 1
 
 
-class Numbers(rt.Struct, type_id="RoboCompTypes::Numbers"):
+class Numbers(rt.Struct, type_id="RoboCompTypes::Numbers", units={"stamp": "ns"}):
     """RoboCompTypes::Numbers."""
 
     flag: rt.Bool = True

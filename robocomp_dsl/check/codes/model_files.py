@@ -22,9 +22,9 @@ MODEL_SIMPLIFIED = Code(
     Severity.WARNING,
     "the model was simplified",
     """\
-The model is used with a simplification: a mesh that is missing or in an unsupported format becomes
-a box (`.obj` and `.stl` are supported; of `.dae`, `.osg` and `.3ds` only the size), a missing
-texture is left out, a moving body without mass gets one.
+The model is used with a simplification: a mesh that is missing or cannot be read becomes a small
+marker that touches nothing, a mesh in `.dae` its bounding box, a missing texture is left out, a
+moving body without mass gets one. Convert meshes to `.obj` or `.stl`.
 
 `rcgen simulator` also reports a joint that is too light for the torque of its motor at the time
 step of the file (it gets more `armature`, because no controller could hold it), a joint in the
@@ -43,5 +43,30 @@ MODEL_OVERLAP = Code(
     """\
 When the simulation starts, they push each other apart, often violently. Move them, change the
 start positions of the joints, or exclude the pair from collisions (in InnerModel: `collide="0"`).
+""",
+)
+
+MODEL_UNLIKELY = Code(
+    "RC893",
+    Severity.WARNING,
+    "a value of the model is unlikely",
+    """\
+The model can be simulated, but a value is probably in another unit, or missing: ranges of joints
+in degrees where radians are expected or the reverse, lengths in mm, masses in g, moments of
+inertia that do not fit the mass, joints without a name, joints of a URDF without `effort` or
+`velocity`, and key frames beyond the limits of joints.
+
+Wrong, because MJCF reads angles in degrees:
+
+    <mujoco>
+      <worldbody><body name="arm"><joint name="elbow" range="-1.5 1.5"/> … </body></worldbody>
+    </mujoco>
+
+Right:
+
+    <mujoco>
+      <compiler angle="radian"/>
+      <worldbody><body name="arm"><joint name="elbow" range="-1.5 1.5"/> … </body></worldbody>
+    </mujoco>
 """,
 )

@@ -1,0 +1,1 @@
+"""Checks a tactile description against the geometry of the robot's model."""
