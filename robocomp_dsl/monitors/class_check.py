@@ -196,7 +196,7 @@ def _collect_events(lineage: _Lineage, check: HookCheck, result: MonitorClass) -
                         case ast.Constant(value=value):
                             check.report(
                                 name,
-                                f"{value!r} is no name of an event",
+                                f"{value!r} is not the name of an event",
                                 "an event is named like a variable, such as e_face",
                             )
                         case _:

@@ -121,9 +121,9 @@ def test_breaking_ignores_deployment_updated_with_components(rcgen: Rcgen, robot
 def test_breaking_reports_errors_of_deployment_first(rcgen: Rcgen, robot: Path) -> None:
     change(robot, "robot.ddsl", "set speed", "set spede")
     run = rcgen("breaking", "--against", "HEAD", "-I", "idsl")
-    assert (run.code, run.out) == (1, "")
+    assert (run.code, run.out) == (1, ". against HEAD: no findings\n")
     assert "did you mean `speed`?" in run.err
-    assert "fix these errors first" in run.err
+    assert "files has errors and is not compared: `robot.ddsl`" in run.err
 
 
 def test_breaking_notes_affected_connections(rcgen: Rcgen, robot: Path) -> None:

@@ -17,6 +17,7 @@ from robocomp_dsl.check.cdsl.middlewares import (
 from robocomp_dsl.check.cdsl.options import expand_options
 from robocomp_dsl.check.cdsl.ports import port_names
 from robocomp_dsl.check.codes import names as codes
+from robocomp_dsl.check.doc_comments import plain
 from robocomp_dsl.check.literals import TypeMismatch, as_int
 from robocomp_dsl.check.names.import_scope import ImportScope
 from robocomp_dsl.check.names.interface_names import find_interface
@@ -74,7 +75,7 @@ def resolve_cdsl(
         watchdog_s=watchdog_of(tree.watchdog, codes.COMPONENT_NUMBER, report) or 0.0,
         gui=tree.gui.widget.text if tree.gui else "",
         options=tuple(option.text for option in tree.options),
-        doc=tree.doc,
+        doc=plain(tree.doc),
         invalid_ports=frozenset(name for name in invalid if name),
     )
     check_roles(pairs, component, workspace.middlewares, report)

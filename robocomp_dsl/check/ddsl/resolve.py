@@ -40,6 +40,7 @@ from robocomp_dsl.check.ddsl.scopes import (
     check_exports,
     scopes_of,
 )
+from robocomp_dsl.check.doc_comments import plain
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
@@ -153,7 +154,7 @@ class _Resolver:
             instances=tuple(order),
             connections=all_connections,
             hosts=tuple(hosts.values()),
-            doc=tree.doc,
+            doc=plain(tree.doc),
             groups=groups,
             clock=clock,
             externals=tuple(externals.values()),

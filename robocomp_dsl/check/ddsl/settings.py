@@ -122,7 +122,7 @@ def _find(key: str, component: Component) -> Parameter:
         _check_index(place, index, found)
         members = found.members
     if found is None:  # a key has a step at least
-        raise _Unknown(f"`{key}` is no name")
+        raise _Unknown(f"`{key}` is not the name of a parameter")
     if found.kind is Kind.GROUP:
         inside = join_names([setting.name for setting in found.members])
         raise _Unknown(f"`{place}` is a group: set one of its members, {inside}")

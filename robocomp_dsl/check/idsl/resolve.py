@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from robocomp_dsl.check.codes import types as codes
+from robocomp_dsl.check.doc_comments import documentation_of, plain
 from robocomp_dsl.check.idsl.inheritance import with_inherited
 from robocomp_dsl.check.idsl.nesting import MAX_DEPTH, MAX_VALUES, Nesting
 from robocomp_dsl.check.idsl.patterns import infer_pattern, response_index
@@ -69,7 +70,7 @@ class _Resolver:
             self._tree.name.text,
             path,
             self._tree.name.span,
-            self._tree.doc,
+            plain(self._tree.doc),
             self._scope.direct,
             tuple(d for d in declarations if d is not None and not isinstance(d, types.Alias)),
             tuple(d for d in declarations if isinstance(d, types.Alias)),
@@ -102,7 +103,12 @@ class _Resolver:
         return declaration
 
     def _build(self, tree: ast.Declaration) -> types.Declaration | None:
-        head = (self._tree.name.text, tree.name.text, tree.name.span, tree.doc)
+        head = (
+            self._tree.name.text,
+            tree.name.text,
+            tree.name.span,
+            documentation_of(tree),
+        )
         match tree:
             case ast.Struct():
                 units = ROS_UNITS.get(tree.ros_name, {})
@@ -158,7 +164,8 @@ class _Resolver:
         type_ = self._array(tree.array, element) if tree.array else element
         items = self._items(tree, element)
         unit = self._unit(tree.unit, type_) or units.get(tree.name.text, "")
-        field = types.Field(tree.name.text, type_, tree.name.span, default, unit, tree.doc, items)
+        doc = documentation_of(tree)
+        field = types.Field(tree.name.text, type_, tree.name.span, default, unit, doc, items)
         self._pairs.append((tree, field))
         return field
 
@@ -219,7 +226,9 @@ class _Resolver:
                 continue
             value = self._literal(tree.value, type_, f"the constant `{tree.name.text}`")
             if value is not None:
-                constant = types.Constant(tree.name.text, type_, value, tree.name.span, tree.doc)
+                constant = types.Constant(
+                    tree.name.text, type_, value, tree.name.span, documentation_of(tree)
+                )
                 constants.setdefault(constant.name, constant)
         return tuple(constants.values())
 
@@ -228,7 +237,9 @@ class _Resolver:
         following = 0
         for tree in unique_by_name(trees, "enumerator", self._report):
             value = self._enum_value(tree, following)
-            enumerators.append(types.Enumerator(tree.name.text, value, tree.name.span, tree.doc))
+            enumerators.append(
+                types.Enumerator(tree.name.text, value, tree.name.span, documentation_of(tree))
+            )
             following = value + 1
         return tuple(enumerators)
 
@@ -278,7 +289,7 @@ class _Resolver:
             tuple(dict.fromkeys(throws)),
             tree.idempotent,
             bool(mark),
-            tree.doc,
+            documentation_of(tree),
         )
         self._pairs.append((tree, operation))
         return operation

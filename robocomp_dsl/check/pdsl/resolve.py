@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from robocomp_dsl.check.codes import parameters as codes
+from robocomp_dsl.check.doc_comments import documentation_of, plain
 from robocomp_dsl.check.literals import OutOfRange, TypeMismatch, as_float, as_int, join_names
 from robocomp_dsl.check.names.duplicates import unique_by_name
 from robocomp_dsl.check.pdsl.rules import check_group, check_parameter
@@ -47,7 +48,7 @@ def resolve_pdsl(file: Parsed[ast.File], report: Report) -> ParameterSet | None:
     if tree is None:
         return None
     members = _members(tree.members, report)
-    return ParameterSet(tree.name.text, file.source.path, tree.name.span, members, tree.doc)
+    return ParameterSet(tree.name.text, file.source.path, tree.name.span, members, plain(tree.doc))
 
 
 def _members(trees: Sequence[ast.Member], report: Report) -> tuple[Parameter, ...]:
@@ -71,7 +72,7 @@ def _group(tree: ast.Group, report: Report) -> Parameter:
         high=high,
         members=_members(tree.members, report),
         single=tree.count is None,
-        doc=tree.doc,
+        doc=documentation_of(tree),
     )
     check_group(tree, group, report)
     return group
@@ -96,7 +97,7 @@ def _parameter(tree: ast.Parameter, report: Report) -> Parameter | None:
         unit=tree.unit.text if tree.unit else "",
         live=tree.live,
         choices=choices,
-        doc=tree.doc,
+        doc=documentation_of(tree),
         is_path=isinstance(tree.type, Name) and tree.type.text.lower() == PATH,
     )
     check_parameter(tree, parameter, report)

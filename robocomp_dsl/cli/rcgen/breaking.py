@@ -22,6 +22,7 @@ from robocomp_dsl.breaking.compare import Version, compare
 from robocomp_dsl.check.languages import check_file
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.cli import options
+from robocomp_dsl.cli.output.left_out import describe_left_out
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcgen.breaking_deployments import check_deployment
 from robocomp_dsl.diagnostics import Diagnostic, Report, Severity
@@ -67,17 +68,27 @@ def command(*, path: Path, against: str, output_format: str, folders: tuple[Path
         with _open_earlier_version(path, against) as before:
             unread, report = Report(), Report()
             old_folders, now = before.folders(folders), (*folders, _root(path))
-            old, new = _version(before.path, old_folders, unread), _version(path, now, report)
+            new, left_out = _version(path, now, report)
+            not_compared = {before.old_path(file) for file in left_out}
+            old, _ = _version(before.path, old_folders, unread, not_compared)
             deployments = [
                 check_deployment(file, before.old_path(file), now, old_folders)
                 for file in _files(path, (DEPLOYMENTS,))
             ]
-            report.extend(d for deployment in deployments for d in deployment.own)
-            if report.has_errors:
+            for deployment in deployments:
+                report.extend(deployment.own)
+            count = len(_files(path, (*SUFFIXES, DEPLOYMENTS)))
+            left_out += [
+                file
+                for file, deployment in zip(_files(path, (DEPLOYMENTS,)), deployments, strict=True)
+                if any(d.severity is Severity.ERROR for d in deployment.own)
+            ]
+            if left_out:
                 options.print_findings(report.sorted(), output_format, sys.stderr)
-                raise CliError(
-                    EXIT_FINDINGS, "fix these errors first; files with errors cannot be compared"
-                )
+                if len(left_out) == count:
+                    message = "fix these errors first; files with errors cannot be compared"
+                    raise CliError(EXIT_FINDINGS, message)
+                options.print_error(describe_left_out(left_out, count, "compared"))
             _report_unread(unread, before)
             current_deployments = [
                 deployment.deployment for deployment in deployments if deployment.deployment
@@ -90,7 +101,7 @@ def command(*, path: Path, against: str, output_format: str, folders: tuple[Path
     options.print_findings(named, output_format, sys.stdout)
     if output_format == "full":
         print(f"{path} against {against}: {options.summary(named)}")
-    if found.has_errors:
+    if found.has_errors or left_out:
         raise CliError(EXIT_FINDINGS)
 
 
@@ -142,15 +153,27 @@ def _report_unread(unread: Report, before: _EarlierVersion) -> None:
         options.print_error(f"{message}; what was not understood of it is not compared")
 
 
-def _version(path: Path, folders: tuple[Path, ...], report: Report) -> Version:
-    """All models at `path`; `report` gets the errors only."""
+def _version(
+    path: Path,
+    folders: tuple[Path, ...],
+    report: Report,
+    not_compared: Collection[Path | None] | None = None,
+) -> tuple[Version, list[Path]]:
+    """All models at `path`, and the files with errors; `report` gets the errors only.
+
+    `not_compared` are files to leave out; without it, those with errors are left out.
+    """
     workspace = Workspace(folders)
-    version = Version()
+    version, with_errors = Version(), []
     for file in _files(path, SUFFIXES):
         found = Report()
-        version.add(check_file(file, workspace, found))
+        model = check_file(file, workspace, found)
+        if found.has_errors:
+            with_errors.append(file)
         report.extend(d for d in found if d.severity is Severity.ERROR)
-    return version
+        if file not in not_compared if not_compared is not None else not found.has_errors:
+            version.add(model)
+    return version, with_errors
 
 
 def _root(path: Path) -> Path:

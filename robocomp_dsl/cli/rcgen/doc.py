@@ -15,6 +15,7 @@ import click
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.inputs import expand_inputs
+from robocomp_dsl.cli.output.left_out import describe_left_out
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.regular_file import open_regular
@@ -69,8 +70,8 @@ def command(
 ) -> None:
     """Generate linked documentation of interfaces, components and deployments.
 
-    Imported files are included. If a file has errors, no page is written. Files that `rcgen doc`
-    did not write are never changed.
+    Imported files are included. Files with errors are reported and left out; the exit code is then
+    1. Files that `rcgen doc` did not write are never changed.
     """
     from robocomp_dsl.cli.rcgen.doc_subject import read_subject  # noqa: PLC0415 - help needs no checks
     from robocomp_dsl.generate.doc.documentation import documentation  # noqa: PLC0415
@@ -78,9 +79,11 @@ def command(
 
     report = Report()
     paths = _paths(files)
-    subject = read_subject(paths, title or _title(files), Workspace(folders), report)
+    left_out: list[Path] = []
+    workspace = Workspace(folders)
+    subject = read_subject(paths, title or _title(files), workspace, report, left_out)
     options.print_findings(report.sorted(), "full", sys.stderr)
-    if report.has_errors:
+    if len(left_out) == len(paths):
         raise CliError(EXIT_FINDINGS)
     try:
         summary = _write(output, documentation(subject, FORMATS[output_format]))
@@ -88,6 +91,8 @@ def command(
         raise CliError(EXIT_FINDINGS, str(error)) from None
     if not quiet:
         print(summary)
+    if left_out:
+        raise CliError(EXIT_FINDINGS, describe_left_out(left_out, len(paths), "documented"))
 
 
 def _paths(files: Sequence[Path]) -> list[Path]:

@@ -25,10 +25,25 @@ _Noun = TypeVar("_Noun", Bridge, Component, Deployment, ParameterSet, StateMachi
 
 
 def read_subject(
-    paths: Sequence[Path], title: str, workspace: Workspace, report: Report
+    paths: Sequence[Path],
+    title: str,
+    workspace: Workspace,
+    report: Report,
+    left_out: list[Path] | None = None,
 ) -> DocumentationSubject:
-    """The models of the files and of everything that they use, without duplicates."""
-    models = [check_file(path, workspace, report) for path in paths]
+    """The models of the files and of everything that they use, without duplicates.
+
+    Files with errors are left out and added to `left_out`; `report` gets all findings.
+    """
+    models = []
+    for path in paths:
+        own = Report()
+        model = check_file(path, workspace, own)
+        report.extend(own)
+        if not own.has_errors:
+            models.append(model)
+        elif left_out is not None:
+            left_out.append(path)
     deployments = _unique(model for model in models if isinstance(model, Deployment))
     seen = [model for model in models if isinstance(model, Component)]
     parts = [part for deployment in deployments for part in deployment.instances]

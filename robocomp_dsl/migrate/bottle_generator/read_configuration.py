@@ -236,7 +236,7 @@ class _Reader:
         if re.search(r"\s", name.text):
             what, help_ = "has a blank", "names are separated by commas"
         elif not name.text.startswith("/") or name.text.endswith("/"):
-            what, help_ = "is no name of a port or topic", f"write `/{name.text.strip('/')}`"
+            what, help_ = "is not the name of a port or topic", f"write `/{name.text.strip('/')}`"
         else:
             return
         self._report.add(codes.INVALID_VALUE, name.span, f"`{name.text}` {what}", help=help_)

@@ -83,7 +83,7 @@ def _cluster(root: Element, report: Report) -> Iterator[ListedMachine]:
         user, port = _ssh_options(attribute(node, "ssh-options"), name, span, report)
         user = attribute(node, "user") or user or attribute(root, "user")
         if user and not _USER.fullmatch(user):
-            report.add(codes.INCOMPLETE_ELEMENT, span, f"`{user:.60}` is no name of a user")
+            report.add(codes.INCOMPLETE_ELEMENT, span, f"`{user:.60}` is not the name of a user")
             user = ""
         yield ListedMachine(name, attribute(node, "address") or name, span, user, port)
 

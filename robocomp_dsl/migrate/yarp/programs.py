@@ -209,7 +209,7 @@ class _Drafter:
         if address.lower() in LOCAL_NODES:
             return ""
         if not _HOST.fullmatch(address):
-            message = f"`{module.node:.60}` is no name of a machine; `{module.name}` runs here"
+            message = f"`{module.node:.60}` is not the name of a machine; `{module.name}` runs here"
             self._report.add(codes.SETTING_DROPPED, module.span, message)
             return ""
         machine = self._machines.get(address) or ListedMachine(address, address, module.span)
@@ -287,7 +287,7 @@ class _Drafter:
         name = name if name.startswith("/") else f"/{name}"
         if re.fullmatch(r"/[^\s\"@]+", name):
             return name
-        message = f"`{port:.60}` is no name of a port; the connection was left out"
+        message = f"`{port:.60}` is not the name of a port; the connection was left out"
         self._report.add(codes.INCOMPLETE_ELEMENT, span, message)
         return ""
 

@@ -36,7 +36,7 @@ class EventContainer:
     def set(self, event: str, lifetime: float | None = None) -> None:
         """Set an event for `lifetime` s, or until `unset`. Raises `ValueError`."""
         if not isinstance(event, str) or not EVENT_NAME.fullmatch(event):
-            raise ValueError(f"{event!r} is no name of an event; write a name such as e_face")
+            raise ValueError(f"{event!r} is not the name of an event; write a name such as e_face")
         if lifetime is None:
             self._expiries[event] = math.inf
             return

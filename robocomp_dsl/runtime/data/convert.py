@@ -122,6 +122,10 @@ def _flag(value: Any) -> bool:
         raise EncodeError(f"takes True or False, not {described(value)}") from None
 
 
+def _article(name: str) -> str:
+    return "an" if name[0] in "aeio" else "a"
+
+
 def _int(type_: Primitive, value: Any) -> int:
     try:
         number = operator.index(value)
@@ -132,7 +136,8 @@ def _int(type_: Primitive, value: Any) -> int:
         (0, 2**bits - 1) if type_.code.isupper() else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
     )
     if not low <= number <= high:
-        raise EncodeError(f"{number} does not fit into a {type_.name} ({low} to {high})")
+        name = f"{_article(type_.name)} {type_.name}"
+        raise EncodeError(f"{number} does not fit into {name} ({low} to {high})")
     return number
 
 

@@ -23,9 +23,19 @@ _HEADS = {
     "deployment": ("ddsl", "a deployment description"),
     "bridge": ("bdsl", "a bridge"),
 }
+_DESCRIPTIONS = dict(_HEADS.values())
 _PAGE = re.compile(
     r"\s*(<!DOCTYPE html\b[^>\n]*>?|<html\b[^>\n]*>?|\d{3}: Not Found)", re.IGNORECASE
 )
+_COMMANDS = {
+    "idsl": "`rcgen interface {name}` generates code for interfaces",
+    "cdsl": "`rcgen component {name}` generates code for a component",
+    "pdsl": 'name it in the CDSL file: `parameters "{name}";`',
+    "ddsl": "`rcdeploy check {name}` checks a deployment, and `rcdeploy up {name}` starts it",
+    "bdsl": "`rcgen bridge {name}` generates code for a bridge",
+}
+"""What to do with a file of each language."""
+_XML = re.compile(r"\s*(<\?xml\b[^>\n]*>?|<!--|<[A-Za-z][\w.:-]*[^>\n]*>?)")
 _HEAD = rf"^[ \t]*({'|'.join(_HEADS)})\s+\w+\s*\{{"
 
 
@@ -43,13 +53,28 @@ def parse_source(language: str, builder: type[Builder], source: Source, report: 
             help="download the file itself (`Raw`) instead of the page that shows it",
         )
     elif other:
-        description, start, end = other
+        found, start, end = other
+        name = source.path.name
+        is_named_so = source.path.suffix.lower() == f".{found}"
         report.add(
             codes.WRONG_LANGUAGE,
             source.span(start, end),
-            f"this is {description}",
-            label=f"but the file is called `{source.path.name}`",
-            help="rename the file, or check that it is the right file",
+            f"this is {_DESCRIPTIONS[found]}",
+            label=f"{_expected(language)} is needed here"
+            if is_named_so
+            else f"but the file is called `{name}`",
+            help=_COMMANDS[found].format(name=name)
+            if is_named_so
+            else "rename the file, or check that it is the right file",
+        )
+    elif xml := None if tree_builder.has_block else _XML.match(source.text):
+        report.add(
+            codes.WRONG_LANGUAGE,
+            source.span(*xml.span(1)),
+            "this is XML",
+            label=f"{_expected(language)} is needed here",
+            help="`rcgen check FILE.xml` checks an InnerModel; `rcgen migrate FILE.xml` reads files"
+            " of rcmanager, yarpmanager and yarprobotinterface",
         )
     else:
         report.extend(own)
@@ -74,10 +99,15 @@ def _parse(language: str, builder: type[Builder], source: Source) -> tuple[Any, 
     return file, tree_builder, findings.report
 
 
+def _expected(language: str) -> str:
+    """What a file of a language is, as in "a bridge"."""
+    return _DESCRIPTIONS.get(language, "a state machine")
+
+
 def _other_language(language: str, source: Source) -> tuple[str, int, int] | None:
-    """What the file describes instead, and the range that shows it; None if unknown."""
+    """The language of the file, and the range that shows it; None if unknown."""
     for head in re.finditer(_HEAD, source.text, re.MULTILINE | re.IGNORECASE):
-        other, description = _HEADS[head[1].lower()]
+        other, _ = _HEADS[head[1].lower()]
         if other != language:
-            return description, head.start(1), head.end()
+            return other, head.start(1), head.end()
     return None

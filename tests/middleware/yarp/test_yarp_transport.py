@@ -68,7 +68,7 @@ def rpc(names: NameClient, name: str, request: str) -> str:
         ('plan (1.0 2.0 "the moon")', re.escape("[fail] \"NoPath: NoPath(reason='no way to the")),
         ("add 1", r'\[fail\] ".*has 1 values \(int32\), but should have: a int, b int" malformed'),
         ("add 1 x", r'\[fail\] ".*field b.*`x` is no int" malformed'),
-        ("add 1 3000000000", r"\[fail\] .*3000000000 does not fit into a int.* malformed"),
+        ("add 1 3000000000", r"\[fail\] .*3000000000 does not fit into an int.* malformed"),
         ("nonsense", r'\[fail\] "server.Robot has no operation `nonsense`; it has add, plan,'),
         ("", r"\[fail\] "),
         ("help", r'\[many\] "\*\*\* Available commands:" "add a b" "plan goal" isReady "say text"'),

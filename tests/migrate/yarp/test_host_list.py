@@ -76,7 +76,7 @@ def test_resources_are_hosts_unless_disabled(migrate: Migrate) -> None:
         ("<node></node>", "cluster.xml:7 RC977: a `<node>` without a name"),
         ("<node>a b</node>", "cluster.xml:7 RC977: `a b` is no address of a machine"),
         ("<node>laptop</node>", "cluster.xml:7 RC977: the machine `laptop` is listed twice"),
-        ('<node user="a b">x</node>', "cluster.xml:7 RC977: `a b` is no name of a user"),
+        ('<node user="a b">x</node>', "cluster.xml:7 RC977: `a b` is not the name of a user"),
         ('<node ssh-options="-p 99999">x</node>', "cluster.xml:7 RC979: `-p 99999` of `x`"),
         ('<node docker="img">x</node>', "cluster.xml:7 RC979: `docker` of `x` (`img`)"),
         ('<node ssh-options="-i \'a">x</node>', "cluster.xml:7 RC979: `-i 'a` of `x`"),

@@ -92,7 +92,7 @@ def test_image_from_bottom_to_top_is_turned() -> None:
         ({"data": b"x"}, r"data: 2 rows of 8 bytes have 16 bytes, not 1"),
         ({"data": "x"}, r"data: takes a "),
         ({"width": -1}, r"width: is -1"),
-        ({"height": 1 << 31}, r"height: 2147483648 does not fit into a int"),
+        ({"height": 1 << 31}, r"height: 2147483648 does not fit into an int"),
     ],
 )
 def test_image_that_yarp_cannot_have(changes: dict[str, Any], message: str) -> None:

@@ -46,8 +46,8 @@ class GenericWorker(Component):
 
     def Motor_move_to(self, angle: float, speed: float) -> bool:
         """Moves the joint.
-        @param angle the target [deg]
-        @return whether it is within the limits
+        - `angle`: the target [deg]
+        Returns whether it is within the limits
 
         Units: angle in deg.
         May raise Blocked.

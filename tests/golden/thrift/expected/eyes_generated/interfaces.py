@@ -136,8 +136,8 @@ class MotorProxy(rt.Proxy):
 
     def move_to(self, angle: float, speed: float = 10.0) -> bool:
         """Moves the joint.
-        @param angle the target [deg]
-        @return whether it is within the limits
+        - `angle`: the target [deg]
+        Returns whether it is within the limits
 
         Units: angle in deg.
         May raise Blocked.
