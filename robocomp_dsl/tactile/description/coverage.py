@@ -12,7 +12,6 @@ from robocomp_dsl.tactile.arrays import Bools
 from robocomp_dsl.tactile.description.model import GenericPart, Limb, RobotDescription
 from robocomp_dsl.tactile.errors import Fault
 
-
 MAX_UNANSWERED = 0.1
 """The share of the taxels of a limb that may be between its fields."""
 
