@@ -54,10 +54,12 @@ campaign-hosts: $(READY)
 highlight: $(READY)
 	$(BIN)/python -m editors.highlight
 
-# Install the programs that tests use besides Python: editors, the Slice compiler, systemd.
+# Install the programs that tests use besides Python: editors, the Slice compiler, systemd, libraries
+# of Qt.
 test-tools: $(READY)
 	tests/hosts/install.sh
 	editors/install-test-tools.sh $(CURDIR)/$(BIN)/python
+	tests/runtime/gui/install.sh
 	$(BIN)/pip install -q --disable-pip-version-check kubernetes-validate
 
 test-editors: test-tools

@@ -39,7 +39,7 @@ def generic_imports(component: Component, py_names: PythonNames) -> Iterator[str
     if py_names.handlers:
         yield "from robocomp_dsl.runtime import types as rt"
     if component.gui:
-        yield "from robocomp_dsl.runtime.gui.window import QtWidgets, Window"
+        yield "from robocomp_dsl.runtime.gui.window import QtWidgets, WindowComponent"
     yield ""
     if used:
         yield _import(".interfaces", used)

@@ -48,7 +48,7 @@ class WindowApplication:
         QtCore.qInstallMessageHandler(_log_message)
         existing = QtWidgets.QApplication.instance()
         self._application = existing or QtWidgets.QApplication([name])
-        self._application.setApplicationDisplayName(name)
+        self._application.setApplicationName(name)
         self.callback_group = WindowCallbackGroup(threads)
         self._main_thread = MainThread(self.callback_group)
         self._application.installEventFilter(self._main_thread)

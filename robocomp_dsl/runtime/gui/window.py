@@ -16,10 +16,10 @@ from robocomp_dsl.runtime.gui.form_finder import install_finder
 from robocomp_dsl.runtime.gui.qt import QtWidgets
 from robocomp_dsl.runtime.gui.ui_file import find_ui_file, load_form
 
-__all__ = ["QtWidgets", "Window"]
+__all__ = ["QtWidgets", "WindowComponent"]
 
 
-class Window(Component):
+class WindowComponent(Component):
     """A component that is a window.
 
     `ui` has the widgets of `mainUI.ui` by name. The hooks run in the thread of Qt, so they may use

@@ -12,8 +12,8 @@ from typing import Any as _Any
 
 from robocomp_dsl.runtime.gui import qt as _qt  # isort: skip - reports a missing PySide6
 from PySide6.QtCore import *  # noqa: F403
-from PySide6.QtGui import *  # noqa: F403
-from PySide6.QtWidgets import *  # noqa: F403
+from PySide6.QtGui import *  # type: ignore[assignment] # noqa: F403
+from PySide6.QtWidgets import *  # type: ignore[assignment] # noqa: F403
 
 
 def _merged(name: str, *modules: _Module) -> _Any:

@@ -22,10 +22,10 @@ from robocomp_dsl.runtime.robocomp.worker import (
 class QtLoop(EventLoop):
     """The event loop of Qt, for state machines; create it in the thread of Qt."""
 
-    def __init__(self, request_stop: Callable[[], None]) -> None:
-        super().__init__(request_stop)
+    def __init__(self) -> None:
+        super().__init__()
         self._thread = get_ident()
-        self._application = QtCore.QCoreApplication.instance()
+        self._application: Any = QtCore.QCoreApplication.instance()
 
     @property
     def is_here(self) -> bool:
@@ -49,11 +49,11 @@ class LegacyWindow(LegacyWorker):
     def begin(self, old_init: Callable[..., object]) -> None:
         """See `LegacyWorker.begin`."""
         window: Any = self
-        loop = self._loop = QtLoop(self._request_stop)
+        loop = self._loop = QtLoop()
         self.Period = DEFAULT_PERIOD_MS
         self.timer = QtCore.QTimer(window)
         self.mutex = QtCore.QRecursiveMutex()
-        self.kill.connect(self._request_stop)
+        window.kill.connect(self._request_stop)
         self._add_machine(loop)
         self._lifecycle.set_period(0)  # the timer calls `compute`
         self._call_old_methods(old_init)

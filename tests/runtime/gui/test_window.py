@@ -17,7 +17,7 @@ from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.component.lifecycle import LifecycleState
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.errors import WindowError
-from robocomp_dsl.runtime.gui.window import Window
+from robocomp_dsl.runtime.gui.window import WindowComponent
 from tests.runtime.gui.window_run import proxy_of, run_window
 from tests.support.waiting import wait_until
 
@@ -32,7 +32,7 @@ class CountsProxy(rt.Proxy):
         return int(self._call("count"))
 
 
-class Counter(Window, QtWidgets.QWidget):
+class Counter(WindowComponent, QtWidgets.QWidget):
     """Counts clicks; each method records its thread, and whether another one runs."""
 
     SPEC = ComponentSpec(
@@ -242,7 +242,7 @@ def test_window_of_failing_initialize_ends_as_failed(caplog: pytest.LogCaptureFi
 
 
 def test_window_without_qt_class_is_rejected() -> None:
-    class NoWindow(Window):
+    class NoWindow(WindowComponent):
         pass
 
     with pytest.raises(TypeError, match="NoWindow extends no window of Qt"):
@@ -265,4 +265,4 @@ def test_window_rejects_form_of_another_class(
 
 
 def test_component_is_the_base_of_every_window() -> None:
-    assert issubclass(Window, Component)
+    assert issubclass(WindowComponent, Component)

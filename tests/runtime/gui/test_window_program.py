@@ -17,9 +17,9 @@ PROGRAM = """
 import sys
 from PySide6 import QtCore
 from robocomp_dsl.runtime import ComponentSpec, main
-from robocomp_dsl.runtime.gui.window import QtWidgets, Window
+from robocomp_dsl.runtime.gui.window import QtWidgets, WindowComponent
 
-class Worker(Window, QtWidgets.QWidget):
+class Worker(WindowComponent, QtWidgets.QWidget):
     SPEC = ComponentSpec("w", period=5, middleware="inproc", has_window=True, watchdog=WATCHDOG)
     def initialize(self):
         self.ui.pushButton.clicked.connect(self.on_click)

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from robocomp_dsl.runtime import CalledPort, ComponentSpec
-from robocomp_dsl.runtime.gui.window import QtWidgets, Window
+from robocomp_dsl.runtime.gui.window import QtWidgets, WindowComponent
 
 from .interfaces import LaserProxy
 from .params import PanelParams
 
 
-class GenericWorker(Window, QtWidgets.QMainWindow):
+class GenericWorker(WindowComponent, QtWidgets.QMainWindow):
     """Shows a laser."""
 
     SPEC = ComponentSpec(
