@@ -56,6 +56,7 @@ CASES = [
     (".smdsl", SMDSL, "on started", "started", "`on` is missing before `started`"),
     (".smdsl", SMDSL, "=> Busy", "=>=> Busy", "`=>` is written twice"),
     (".smdsl", SMDSL, "Idle =>", "=> Idle", "`=>` and `Idle` are in the wrong order"),
+    (".smdsl", SMDSL, "=> Busy", "=> Buzsy", "unknown state `Buzsy`"),
     (".pdsl", PDSL, "0:20", "0::20", "`:` is written twice"),
     (".pdsl", PDSL, "true live", "true live live", "`live` is written twice"),
 ]
