@@ -10,12 +10,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from robocomp_dsl.check.codes import names as codes
+from robocomp_dsl.check.model_file.model_kind import MODEL_SUFFIXES, is_model
 from robocomp_dsl.check.passes import (
     check_bdsl,
     check_cdsl,
     check_ddsl,
     check_idsl,
     check_innermodel,
+    check_model_file,
     check_pdsl,
     check_state_machine,
     check_tactile,
@@ -80,6 +82,9 @@ def check_file(path: Path, workspace: Workspace, report: Report) -> Model | None
     if _tells_touch(path):
         check_tactile(path, workspace, report)
         return None
+    if is_model(path):
+        check_model_file(path, workspace, report)
+        return None
     check = CHECKS.get(path.suffix.lower())
     if check is None:
         _report_language(path, report)
@@ -92,6 +97,8 @@ def check_syntax(path: Path, workspace: Workspace, report: Report) -> None:
     parser = PARSERS.get(path.suffix.lower())
     if _tells_touch(path):
         check_tactile(path, workspace, report, syntax_only=True)
+    elif is_model(path):
+        check_model_file(path, workspace, report)
     elif parser is None:
         _report_language(path, report)
     else:
@@ -110,7 +117,7 @@ def _tells_touch(path: Path) -> bool:
 
 
 def _report_language(path: Path, report: Report) -> None:
-    known = ", ".join(f"`{suffix}`" for suffix in (*CHECKS, TACTILE[0]))
+    known = ", ".join(f"`{suffix}`" for suffix in (*CHECKS, TACTILE[0], *MODEL_SUFFIXES))
     report.add(
         codes.UNKNOWN_SUFFIX,
         Source(path, "").file_span,

@@ -115,6 +115,18 @@ def check_innermodel(path: Path, workspace: Workspace, report: Report) -> InnerM
     return body
 
 
+def check_model_file(path: Path, workspace: Workspace, report: Report) -> None:
+    """Check a model of a robot, URDF or MJCF, by itself."""
+    from robocomp_dsl.check.model_file.check_model import check_model  # noqa: PLC0415
+
+    try:
+        workspace.sources.read(path)
+    except UnreadableSource as error:
+        _report_unreadable(path, error, report)
+        return
+    check_model(path, report)
+
+
 def check_tactile(
     path: Path, workspace: Workspace, report: Report, *, syntax_only: bool = False
 ) -> None:

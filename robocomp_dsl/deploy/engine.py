@@ -5,8 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from robocomp_dsl.deploy.external_connection import ConnectionStatus
@@ -23,7 +23,8 @@ class DeploymentStatus:
     """The status of a deployment; `clock` is None without a simulated clock.
 
     `connections` are those between external programs, of which rcdeploy knows no state. `problems`
-    are hosts that do not answer, one text each.
+    are hosts that do not answer, one text each. `last_lines`: the end of the log of each component
+    that failed, where the engine of several hosts has it.
     """
 
     rows: list[ProcessStatus]
@@ -31,6 +32,7 @@ class DeploymentStatus:
     externals: Sequence[ExternalProgram] = ()
     connections: Sequence[ConnectionStatus] = ()
     problems: Sequence[str] = ()
+    last_lines: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -169,14 +169,15 @@ UNREADABLE_PYTHON = Code(
     "RC952",
     Severity.ERROR,
     "Python cannot parse the old worker",
-    """Usually it is Python 2 (`print x`). It was copied next to the new, empty
-`specificworker.py` with the suffix `.old`. Convert it to Python 3 (for example with `2to3`), then
-run `rcgen migrate` again, or copy the methods by hand.""",
+    """It is neither Python 3 nor Python 2, or `fissix`, which converts Python 2, is not installed
+(`pip install 'robocomp_dsl[migrate]'`). The file was copied next to the new, empty
+`specificworker.py` with the suffix `.old`. Fix the line in the old folder, remove the new folder
+and run `rcgen migrate` again.""",
 )
 
 NO_WORKER = Code(
     "RC953",
-    Severity.WARNING,
+    Severity.ERROR,
     "there is no class SpecificWorker to migrate",
     """`src/specificworker.py` is missing or has no such class; the new class has empty methods.""",
 )

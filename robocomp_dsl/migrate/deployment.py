@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import PurePosixPath
 
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.migrate import codes
+from robocomp_dsl.migrate import codes, worker_codes
 from robocomp_dsl.migrate.connections import connect_instance
 from robocomp_dsl.migrate.instances import (
     COMMON_BEHAVIOR,
@@ -31,11 +31,9 @@ def draft_deployment(
     moved: Sequence[MigratedComponent], nodes: Sequence[ManagerNode], report: Report
 ) -> DeploymentDraft:
     """The deployment of the manager's processes; without a manager, one instance per component."""
-    names = InstanceNames()
+    names = InstanceNames(component.name for component in moved)
     if nodes:
-        instances = [
-            _instance_of_node(node, names.claim(node.name), moved, report) for node in nodes
-        ]
+        instances = [_instance_of_node(node, names, moved, report) for node in nodes]
         _set_start_order(instances, nodes, report)
     else:
         instances = [
@@ -47,6 +45,10 @@ def draft_deployment(
     for instance in list(instances):
         connect_instance(instance, draft, names, report)
     _assign_ports(draft.instances)
+    if draft.instances and not any(instance.migrated for instance in draft.instances):
+        message = "all components of the deployment are stand-ins: no folder of a component fits"
+        fix = "name the folders of the components in the same run"
+        report.add(worker_codes.ONLY_STAND_INS, nodes[0].span.source.file_span, message, help=fix)
     return draft
 
 
@@ -58,12 +60,13 @@ def _instance_of_component(moved: MigratedComponent, name: str) -> MigratedInsta
 
 
 def _instance_of_node(
-    node: ManagerNode, name: str, moved: Sequence[MigratedComponent], report: Report
+    node: ManagerNode, names: InstanceNames, moved: Sequence[MigratedComponent], report: Report
 ) -> MigratedInstance:
-    instance = MigratedInstance(name, node.span, host=node.host, user=node.user)
+    migrated = _component_of(node, moved)
+    name = names.claim(node.name) if migrated else names.claim_stand_in(node.name)
+    instance = MigratedInstance(name, node.span, migrated, host=node.host, user=node.user)
     if node.address is not None:
         instance.endpoints.append(node.address)
-    instance.migrated = _component_of(node, moved)
     if instance.migrated is not None:
         instance.config = _config_of(node, instance.migrated, report)
         instance.endpoints += instance.config.ice.endpoints if instance.config else ()

@@ -7,6 +7,7 @@ imports, and about names that only Qt or Ice provide.
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -25,6 +26,10 @@ from robocomp_dsl.source import Span
 
 GENERATED_MODULES = ("genericworker", "interfaces")
 """Modules that RoboComp generated next to the worker."""
+_QT_NAME = re.compile(r"Q[A-Zt]\w+|Qt|qApp|Signal|Slot|SIGNAL|SLOT|Property|pyqt\w+")
+INNER_MODELS = frozenset(("librobocomp_innermodel", "innermodel", "innermodel_python3"))
+"""Modules and packages that had RoboComp's `InnerModel`."""
+INNER_MODEL_NAMES = frozenset(("InnerModel", "InnerModelJoint", "InnerModelPrismaticJoint", "*"))
 TextEdit = tuple[int, int, str]
 """Replace the text of [start, end)."""
 
@@ -35,8 +40,9 @@ class LegacyNames:
 
     `handlers` has the new name of each method that other components call.
 
-    `states` are the suffixes of the state methods; None without a state machine. `has_window`:
-    the component runs with Qt, so imports of Qt become imports of PySide6.
+    `states` are the suffixes of the state methods; None without a state machine. `servants` are
+    modules that RoboComp generated, and that the runtime replaces. `has_window`: the component
+    runs with Qt, so imports of Qt become imports of PySide6. `local` are the component's modules.
     """
 
     legacy: str
@@ -44,7 +50,9 @@ class LegacyNames:
     modules: frozenset[str]
     handlers: Mapping[str, str]
     states: frozenset[str] | None = None
+    servants: frozenset[str] = frozenset()
     has_window: bool = False
+    local: frozenset[str] = frozenset()
 
 
 def _used_attributes(tree: ast.Module) -> dict[str, set[str]]:
@@ -116,6 +124,13 @@ def _plain_import(node: ast.Import, names: LegacyNames, used: dict[str, set[str]
     changed = False
     for alias in node.names:
         bound = alias.asname or alias.name
+        if alias.name in names.servants:
+            changed = True
+            continue
+        if alias.name in INNER_MODELS - names.local:
+            changed = True
+            statements.append(f"from robocomp_dsl import innermodel as {bound}")
+            continue
         is_generated = alias.name in GENERATED_MODULES
         is_provided = alias.name in names.modules or (
             alias.name == "Ice" and _unsupported_attribute("Ice", bound, used) is None
@@ -131,21 +146,24 @@ def _plain_import(node: ast.Import, names: LegacyNames, used: dict[str, set[str]
             statements.append(adapted_import(alias))
         else:
             statements.append(f"import {alias.name}{suffix}")
-    return "; ".join(statements) if changed else None
+    return ("; ".join(statements) or "pass") if changed else None
 
 
 def _from_import(node: ast.ImportFrom, names: LegacyNames, used: dict[str, set[str]]) -> str | None:
     """The new text of `from a import b`; None if it needs no change."""
     module = node.module or ""
     listed = ", ".join(a.name + (f" as {a.asname}" if a.asname else "") for a in node.names)
-    if module in GENERATED_MODULES:
-        return f"from {names.legacy} import {listed}"
+    if module in (*GENERATED_MODULES, *names.servants):
+        return "pass" if module in names.servants else f"from {names.legacy} import {listed}"
+    is_inner_model = module.partition(".")[0] in INNER_MODELS - names.local
+    if is_inner_model and INNER_MODEL_NAMES.issuperset(a.name for a in node.names):
+        return f"from robocomp_dsl.innermodel import {listed}"
     if module in names.modules:
         return f"from {names.package}.interfaces import {listed}"
     if names.has_window and is_qt(module):
         return adapted_from_import(node, names.legacy)
     if module.partition(".")[0] in QT and _unsupported_qt_name(node, used) is None:
-        supported = [a for a in node.names if a.name in STAND_INS]
+        supported = [a for a in _expanded(node, used) if a.name in STAND_INS]
         listed = ", ".join(a.name + (f" as {a.asname}" if a.asname else "") for a in supported)
         return f"from {names.legacy} import {listed}" if supported else "pass"
     return None
@@ -169,14 +187,21 @@ def _unsupported_star_import(
 
 def _unsupported_qt_name(node: ast.ImportFrom, used: dict[str, set[str]]) -> str | None:
     """A used name of an import from Qt that has no stand-in; None if all have one."""
-    for alias in node.names:
+    for alias in _expanded(node, used):
         bound = alias.asname or alias.name
         if alias.name in STAND_INS:
             if missing := _unsupported_attribute(alias.name, bound, used):
                 return missing
-        elif alias.name == "*" or bound in used:
+        elif bound in used:
             return f"`{alias.name}`"
     return None
+
+
+def _expanded(node: ast.ImportFrom, used: dict[str, set[str]]) -> list[ast.alias]:
+    """The names that an import binds; of `import *` the used ones that look like those of Qt."""
+    if node.names[0].name != "*":
+        return node.names
+    return [ast.alias(name) for name in sorted(used) if _QT_NAME.fullmatch(name)]
 
 
 def _unsupported_attribute(name: str, bound: str, used: dict[str, set[str]]) -> str | None:

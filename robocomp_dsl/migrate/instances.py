@@ -6,7 +6,7 @@ In: the results of `deployment` and `connections`. Out: `DeploymentDraft`.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from robocomp_dsl.migrate.ice import Address
@@ -69,10 +69,16 @@ def same_interface(interface: Interface, other: Interface) -> bool:
 
 
 class InstanceNames:
-    """Unique names of instances."""
+    """Unique names of instances; a stand-in has none of the names of `components` either."""
 
-    def __init__(self) -> None:
+    def __init__(self, components: Iterable[str] = ()) -> None:
         self.taken: set[str] = set()
+        self._components = frozenset(components)
+
+    def claim_stand_in(self, requested: str) -> str:
+        """A free name of an instance and of its component."""
+        name = self.claim(requested)
+        return name if name not in self._components else self.claim_stand_in(f"{name}_peer")
 
     def claim(self, requested: str) -> str:
         """A free DDSL name based on `requested`."""

@@ -5,7 +5,7 @@ In: a component, its inferred parameters. Out: the text of `legacy.py`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from robocomp_dsl.generate import names
 from robocomp_dsl.generate.literals import python_string
@@ -31,10 +31,13 @@ STAND_INS = {
         " ConnectFailedException ConnectionLostException ObjectNotExistException loadSlice"
         " NoEndpointException",
         "QtCore": "QCoreApplication QMutex QMutexLocker QRecursiveMutex QTimer Signal Slot"
-        " pyqtSignal pyqtSlot",
-        "QtWidgets": "QApplication",
-        "QtGui": "QApplication",
-        "QApplication": "instance quit",
+        " pyqtSignal pyqtSlot qApp",
+        "QtWidgets": "QApplication qApp",
+        "QtGui": "QApplication qApp",
+        "QApplication": "instance quit exit processEvents",
+        "QCoreApplication": "instance quit exit processEvents",
+        "QRecursiveMutex": "lock tryLock unlock",
+        "qApp": "quit exit processEvents aboutToQuit",
         "QTimer": "start stop setInterval interval isActive setSingleShot isSingleShot"
         " setTimerType timeout singleShot",
         "QMutex": "Recursive NonRecursive lock tryLock unlock",
@@ -47,10 +50,18 @@ STAND_INS = {
 
 
 def legacy_text(
-    component: Component, parameters: InferredParameters, *, source: bool = False
+    component: Component,
+    parameters: InferredParameters,
+    *,
+    source: bool = False,
+    bare: Collection[str] = (),
 ) -> str:
-    """The module for the old code of `component`; `source`: its modules are in `src/`."""
+    """The module for the old code of `component`.
+
+    `source`: its modules are in `src/`; `bare` are types that it uses without their module.
+    """
     called = names_of(component)
+    provided = interface_names(component)
     return render(
         "migrate/legacy.py.jinja",
         name=component.name,
@@ -63,8 +74,21 @@ def legacy_text(
         states=list(states_of(component)),
         events=list(_events(component)),
         source=source,
+        bare=[
+            (name, next(module for module, names in provided.items() if name in names))
+            for name in sorted(bare)
+        ],
         window=bool(component.gui),
     )
+
+
+def interface_names(component: Component) -> dict[str, frozenset[str]]:
+    """The names that each interface module of RoboComp has for the old code."""
+    called = names_of(component)
+    return {
+        module.name: frozenset(old for old, _ in _types(module, called))
+        for module in modules_of(component)
+    }
 
 
 def states_of(component: Component) -> Iterator[str]:

@@ -5,12 +5,14 @@ In: the findings and the list of converted files. Out: the text of the file.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from robocomp_dsl.diagnostics import Diagnostic, Severity
 from robocomp_dsl.generate.literals import markdown_cell, markdown_code
 from robocomp_dsl.generate.templates import render
+from robocomp_dsl.migrate.codes import GENERATED_FILE_DROPPED as _GENERATED
 
 FILE = "MIGRATION.md"
 _HEADS = {
@@ -22,9 +24,11 @@ _ABOUT_CODE = """## How the old code runs now
 
 - Methods are unchanged. Proxies have their old names (`self.laser_proxy`), and so have the
   methods that other components call (`Laser_getLaserData`).
-- `legacy.py` provides everything else that the code expects: `Ice`, `ifaces`, `RoboComp…` modules,
-  a `timer` that does nothing. It calls the old `__init__(proxy_map, …)` and then
-  `setParams(params)` from `initialize`, when the proxies are connected; `params` has the old keys.
+- `legacy.py` provides what the code expects: `Ice`, `ifaces`, `RoboComp…` modules, timers, signals,
+  locks. It calls the old `__init__(proxy_map, …)` and then `setParams(params)` from `initialize`,
+  when the proxies are connected; `params` has the old keys.
+- `self.timer` calls its slots, usually `compute`. As with Ice, other components can call while
+  they run; `QMutex` is a real lock.
 - A call that fails raises an exception of `robocomp_dsl.runtime.errors`; `except Ice.Exception`
   catches it.
 - New code uses `initialize()`, `self.params.<name>` and types of the module `interfaces` of the
@@ -32,32 +36,71 @@ _ABOUT_CODE = """## How the old code runs now
 """
 
 
-def report_text(
-    name: str,
-    converted_files: Sequence[tuple[str, str]],
-    findings: Iterable[Diagnostic],
-    format_path: Callable[[Path], str],
-    next_steps: Sequence[str],
-    *,
-    has_legacy_code: bool = False,
-) -> str:
-    """The report. `converted_files` has old and new names; `format_path` formats a path."""
-    all_findings = list(findings)
-    parts = [f"# Migration of {name}", "Written by `rcgen migrate`; delete it when done."]
+@dataclass(frozen=True, slots=True)
+class ReportContent:
+    """What the report is about.
+
+    `components` are pairs of a component's name and what became of its code; `converted_files`
+    pairs of old and new path; `format_path` formats the path of a finding.
+    """
+
+    name: str
+    components: Sequence[tuple[str, str]]
+    deployments: Sequence[str]
+    converted_files: Sequence[tuple[str, str]]
+    findings: Sequence[Diagnostic]
+    format_path: Callable[[Path], str]
+    next_steps: Sequence[str]
+    has_legacy_code: bool
+
+
+def report_text(content: ReportContent) -> str:
+    """The report: at most ten lines of summary, then everything."""
+    parts = [f"# Migration of {content.name}", "\n".join(_summary(content))]
+    parts.append("## Next\n\n" + "\n".join(f"    {step}" for step in content.next_steps))
     parts.append(render("install.md.jinja").strip())
-    parts.append("## Next\n\n" + "\n".join(f"    {step}" for step in next_steps))
     for severity, (head, about) in _HEADS.items():
-        items = [_list_item(f, format_path) for f in all_findings if f.severity is severity]
+        found = [f for f in content.findings if f.severity is severity]
+        items = [_list_item(f, content.format_path) for f in found if f.code is not _GENERATED]
+        items += _generated_files([f for f in found if f.code is _GENERATED], content)
         if items:
             listed = "\n".join(items)
             parts.append(f"## {head}\n\n{about} See `rcgen explain CODE`.\n\n{listed}")
-    if not any(finding.severity is Severity.ERROR for finding in all_findings):
-        parts.append("Everything was migrated.")
-    table = [f"| {markdown_code(old)} | {markdown_code(new)} |" for old, new in converted_files]
+    table = [
+        f"| {markdown_code(old)} | {markdown_code(new)} |" for old, new in content.converted_files
+    ]
     parts.append("\n".join(["## Converted files\n", "| old | new |", "|---|---|", *table]))
-    if has_legacy_code:
+    if content.has_legacy_code:
         parts.append(_ABOUT_CODE.rstrip())
     return "\n\n".join(parts) + "\n"
+
+
+def _summary(content: ReportContent) -> Iterator[str]:
+    """What was migrated, what was not, and what to do first."""
+    errors, warnings, notes = (
+        [f for f in content.findings if f.severity is severity] for severity in _HEADS
+    )
+    for name, outcome in content.components[:3]:
+        yield f"- {markdown_code(name)}: {outcome}"
+    if len(content.components) > 3:
+        yield f"- {len(content.components) - 3} more components"
+    if content.deployments:
+        yield f"- deployment: {', '.join(map(markdown_code, content.deployments))}"
+    yield f"- {len(content.converted_files)} files were converted or copied"
+    counts = f"{len(errors)} not migrated, {len(warnings)} to review, {len(notes)} for information"
+    yield f"- findings: {counts}" if content.findings else "- everything was migrated"
+    if errors:
+        yield f"- first: {_list_item(errors[0], content.format_path).removeprefix('- ')}"
+    yield "- paths are relative to this folder; the old files are unchanged"
+    yield "- written by `rcgen migrate`; delete this file when you are done"
+
+
+def _generated_files(found: Sequence[Diagnostic], content: ReportContent) -> list[str]:
+    """One item for all files that RoboComp generated."""
+    if not found:
+        return []
+    paths = ", ".join(markdown_code(content.format_path(f.span.source.path)) for f in found)
+    return [f"- generated by RoboComp, no longer needed ({_GENERATED.id}): {paths}"]
 
 
 def _list_item(finding: Diagnostic, format_path: Callable[[Path], str]) -> str:

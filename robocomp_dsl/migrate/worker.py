@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.names import COMPONENT_MEMBERS
 from robocomp_dsl.generate.python.component_names import modules_of, names_of
+from robocomp_dsl.generate.regeneration.python_module import end_of_comments
 from robocomp_dsl.generate.regeneration.user_module import UserModule
 from robocomp_dsl.migrate import codes
 from robocomp_dsl.migrate.imports import LegacyNames, TextEdit, adapt_imports, span_of
@@ -29,23 +30,41 @@ def names_for(component: Component, legacy: str) -> LegacyNames:
     handlers = {operation.name: name for (_, operation), name in called.handlers.items()}
     modules = frozenset(module.name for module in modules_of(component))
     states = frozenset(states_of(component)) if component.statemachine else None
+    servants = frozenset(
+        ["commonbehaviorI", *(f"{port.interface.name.lower()}I" for port in component.ports)]
+    )
     return LegacyNames(
-        legacy, called.package, modules, handlers, states, has_window=bool(component.gui)
+        legacy, called.package, modules, handlers, states, servants, has_window=bool(component.gui)
     )
 
 
-def adapt_module(user: UserModule, names: LegacyNames, report: Report) -> str:
-    """The adapted text of `user`."""
+def adapt_module(user: UserModule, names: LegacyNames, report: Report, first_line: str = "") -> str:
+    """The adapted text of `user`; `first_line` is inserted before its first statement."""
     changes = list(adapt_imports(user, names, report))
+    if first_line:
+        changes.append(_first_line_edit(user, first_line))
     if user.worker is not None:
         changes += _handler_aliases(user, names)
         _check_attribute_names(user, user.worker, report)
         if names.states is not None:
             _check_state_methods(user, user.worker, names.states, report)
     text = user.source.text
-    for start, end, new in sorted(changes, reverse=True):
+    for start, end, new in sorted(changes, key=lambda edit: edit[:2], reverse=True):
         text = text[:start] + new + text[end:]
     return text
+
+
+def _first_line_edit(user: UserModule, line: str) -> TextEdit:
+    """Insert a line before the first statement that is no docstring and no `__future__`."""
+    at = 0
+    for statement in user.tree.body:
+        is_doc = isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
+        is_future = isinstance(statement, ast.ImportFrom) and statement.module == "__future__"
+        if not is_doc and not is_future:
+            at = user.starts[statement.lineno - 1]
+            break
+    line_end = "\r\n" if "\r\n" in user.source.text else "\n"
+    return at, at, f"{line}{line_end}"
 
 
 def period_of(user: UserModule) -> tuple[int, Span] | None:
@@ -80,8 +99,8 @@ def _handler_aliases(user: UserModule, names: LegacyNames) -> Iterator[TextEdit]
     last, first = worker.body[-1], worker.body[0]
     text, start = user.source.text, user.starts[first.lineno - 1]
     end = user.offset(last.end_lineno or 1, last.end_col_offset or 0)
-    end += len(text[end:].partition("\n")[0].rstrip("\r"))
     indent = text[start : user.offset(first.lineno, first.col_offset)]
+    end = end_of_comments(text, end, indent)
     line_end = "\r\n" if "\r\n" in text else "\n"
     rows = [f"{indent}{new} = {old}" for new, old in aliases]
     yield end, end, line_end + line_end + line_end.join(rows)

@@ -1,27 +1,16 @@
-"""The quality of service of connections as text for command lines. Pure."""
+"""The quality of service of connections as text. Pure."""
 
 from __future__ import annotations
 
 from robocomp_dsl.model.deployment import Qos
+from robocomp_dsl.qos_items import qos_values
 
 
 def format_qos(qos: Qos) -> str:
     """The value of `--qos PORT=` or `--qos PORT/PEER=`: `best_effort,depth=1`; times in ms."""
-    items = []
-    if qos.reliable is not None:
-        items.append("reliable" if qos.reliable else "best_effort")
-    if qos.keep_all:
-        items.append("keep_all")
-    if qos.depth is not None:
-        items.append(f"depth={qos.depth}")
-    if qos.latched:
-        items.append("latched")
-    if qos.priority is not None:
-        items.append(f"priority={qos.priority}")
-    if qos.deadline_ms is not None:
-        items.append(f"deadline={qos.deadline_ms:g}")
-    if qos.liveliness_ms is not None:
-        items.append(f"liveliness={qos.liveliness_ms:g}")
-    if qos.thread_priority is not None:
-        items.append(f"thread_priority={qos.thread_priority}")
-    return ",".join(items)
+    return ",".join(value.as_option() for value in qos_values(qos))
+
+
+def qos_statements(qos: Qos) -> list[str]:
+    """As in DDSL: `best_effort`, `keep last 1`, `deadline 40 ms`; empty for the defaults."""
+    return [value.as_statement() for value in qos_values(qos)]

@@ -7,7 +7,10 @@ from robocomp_dsl.runtime.middleware.capabilities import Capabilities, Middlewar
 from robocomp_dsl.runtime.middleware.registry import description_of
 
 HOUSE = Capabilities(
-    between_hosts=True, reports_source=True, qos=frozenset({"reliable", "priority"})
+    between_hosts=True,
+    reports_source=True,
+    qos=frozenset({"reliable", "priority"}),
+    topic_versions=True,
 )
 ONE_MACHINE = Capabilities(reports_source=True, valid_names="[a-z_]+|[A-Z][A-Za-z]*")
 SERVICES = Capabilities(

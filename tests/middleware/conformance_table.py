@@ -27,6 +27,7 @@ CAPABILITIES = {
     "fixed_address": "address of an own port (`at`)",
     "ros_types_only": "only types that are imported from ROS",
     "external_ros_types": "programs that are no components: only types that are imported from ROS",
+    "topic_versions": "topics between two versions of an interface: what is the same arrives",
     "sequence_numbers": "numbers of publications: losses in the network are counted",
 }
 _HEAD = """\

@@ -232,8 +232,8 @@ def test_zenoh_reports_interface_mismatch_on_both_sides_of_topic(
     subscriber, publisher = network.node("listener"), network.node("speaker")
     subscriber.subscribe(lambda *_: None)
     publisher.ports.advertise(Endpoint(OTHER_NEWS, "speaker", "News"))
-    wait_until(lambda: "listener and speaker cannot communicate" in caplog.text)
-    wait_until(lambda: "speaker and listener cannot communicate" in caplog.text)
+    wait_until(lambda: "listener and speaker have different versions" in caplog.text)
+    wait_until(lambda: "speaker and listener have different versions" in caplog.text)
     assert "different versions of Test::News" in caplog.text
 
 

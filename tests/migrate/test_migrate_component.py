@@ -35,8 +35,8 @@ def test_migrate_python_component_checks_clean(rcgen, old: Path, tmp_path: Path)
     assert (out / "etc/room.xml").is_file()
     report = (out / "MIGRATION.md").read_text()
     for words in (
-        "`follow/etc/config:16`",
-        "`follow/src/genericworker.py`",
+        "/follow/etc/config:16`",
+        "/follow/src/genericworker.py`",
         "`laser` is a stand-in",
     ):
         assert words in report
@@ -82,8 +82,8 @@ def test_migrate_cpp_component_keeps_descriptions(rcgen, tmp_path: Path) -> None
     assert done.code == 1
     out = tmp_path / "eyes-migrated"
     report = (out / "MIGRATION.md").read_text()
-    assert "`eyes/src/specificworker.cpp` C++ code is not migrated" in report
-    assert "`eyes/src/genericworker.cpp`" in report.partition("For information")[2]
+    assert "`../eyes/src/specificworker.cpp` C++ code is not migrated" in report
+    assert "`../eyes/src/genericworker.cpp`" in report.partition("For information")[2]
     assert "language Python;" in (out / "eyes.cdsl").read_text()
     assert rcgen("check", out).code == 0
     assert rcgen("component", "--check", out / "eyes.cdsl").code == 0

@@ -75,7 +75,8 @@ def test_migrate_manager_without_folders_writes_placeholder_components(
 ) -> None:
     out = tmp_path / "robot"
     done = rcgen("migrate", old / "robot.xml", "-o", out)
-    assert done.code == 0, done.err
+    assert done.code == 1
+    assert "error[RC945]: all components of the deployment are stand-ins" in done.err
     assert rcgen("check", out).code == 0
     assert "implements Laser;" in (out / "peers/laser/laser.cdsl").read_text()
     assert "implements RGBD;" in (out / "peers/rgbd/rgbd.cdsl").read_text()

@@ -12,7 +12,11 @@ from robocomp_dsl.generate.regeneration import user_module
 from robocomp_dsl.migrate.worker import LegacyNames, adapt_module
 
 NAMES = LegacyNames(
-    "legacy", "old_generated", frozenset({"RoboCompLaser"}), {"getLaserData": "Laser_getLaserData"}
+    "legacy",
+    "old_generated",
+    frozenset({"RoboCompLaser"}),
+    {"getLaserData": "Laser_getLaserData"},
+    servants=frozenset({"laserI"}),
 )
 
 IMPORTS = [
@@ -27,6 +31,13 @@ IMPORTS = [
     ("from RoboCompLaser import *", "from old_generated.interfaces import *"),
     ("from RoboCompLaser import A as B", "from old_generated.interfaces import A as B"),
     ("from PySide import QtGui, QtCore", "from legacy import QtGui, QtCore"),
+    ("from PySide import *\nm = QtCore.QMutex()", "from legacy import QtCore\nm = QtCore.QMutex()"),
+    ("from PySide2.QtWidgets import *", "pass"),
+    ("import librobocomp_innermodel as m", "from robocomp_dsl import innermodel as m"),
+    ("from innermodel import InnerModel", "from robocomp_dsl.innermodel import InnerModel"),
+    ("from innermodel_python3.innermodel import InnerModel as M",
+     "from robocomp_dsl.innermodel import InnerModel as M"),
+    ("from laserI import *\nimport laserI, os", "pass\nimport os"),
     ("from PySide2.QtCore import QTimer, Qt", "from legacy import QTimer"),
     ("from PySide2.QtCore import QTimer\nt = QTimer()", "from legacy import QTimer\nt = QTimer()"),
     ("try:\n    from PyQt5.QtGui import QColor\nexcept E:\n    pass",
@@ -38,7 +49,8 @@ IMPORTS = [
 STAYING = [
     "import Ice\nc = Ice.initialize()",
     "from PySide2 import QtCore\nt = QtCore.Qt.Key_A",
-    "from PySide2.QtWidgets import *",
+    "from PySide2.QtWidgets import *\nw = QWidget()",
+    "from PySide import *\nw = QtGui.QWidget()",
     "from PySide2.QtWidgets import QLabel\nl = QLabel()",
     "import PySide2.QtCore",
 ]

@@ -20,6 +20,7 @@ from robocomp_dsl.simulation.robots import catalog
 from robocomp_dsl.simulation.robots.catalog import description
 from robocomp_dsl.tactile.arm.generic_arm import GenericArm
 from robocomp_dsl.tactile.arrays import Bools, Floats
+from robocomp_dsl.tactile.description.model import RobotDescription
 from robocomp_dsl.tactile.reflex import law
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 from tests.touch import shipped_component
@@ -119,7 +120,7 @@ class Robot(SteppedClockSource):
 
     def initialize(self) -> None:
         super().initialize()
-        robot = description(self.name_of_robot)
+        robot = self.describe()
         self.part = robot.part(self.side)
         self.arm, self.geometry = GenericArm(self.part), SkinGeometry.of(robot)
         self.rest = self.part.start
@@ -131,8 +132,12 @@ class Robot(SteppedClockSource):
         self.reflex_messages: list[Any] = []
         self.frames: dict[float, Floats] = {}
 
+    def describe(self) -> RobotDescription:
+        """The description of the robot, which subclasses may have from elsewhere."""
+        return description(self.name_of_robot)
+
     def advance(self) -> Floats:
-        """Let `TICK` pass; where the arm is then (5,)."""
+        """Let `TICK` pass; where the arm is then (n,)."""
         raise NotImplementedError
 
     def taxel_forces(self) -> Floats:
@@ -144,7 +149,7 @@ class Robot(SteppedClockSource):
         pose, now = self.advance(), self.clock.now()
         self.poses.append(pose)
         if self.publishes_state:
-            none = np.zeros(5)
+            none = np.zeros(len(pose))
             self.states_proxy.armState(interfaces.ArmState(now, pose, none, none, moving=False))
         self.sequence += 1
         forces = self.taxel_forces().astype(np.float32)
@@ -191,7 +196,7 @@ class KinematicRobot(Robot):
     def initialize(self) -> None:
         super().initialize()
         self.pose = self.goal = self.rest
-        self.speed = np.zeros(5)
+        self.speed = np.zeros(len(self.pose))
         self.forces = np.zeros(self.geometry.size)
 
     def advance(self) -> Floats:

@@ -63,9 +63,9 @@ def _crane() -> str:
         servos = [
             _servo(s + "pitch", -1, (-2.5, 2.5), 0.4),
             _servo(s + "roll", y, (-2.5, 2.5), 0.3 * y),
-            _servo(s + "yaw", y, (-2, 2), 0.2),
+            _servo(s + "yaw", -y, (-2, 2), 0.2),
             _servo(s + "elbow", -1, (-2.4, 0), -0.8),
-            _servo(s + "twist", y, (-2, 2), 0),
+            _servo(s + "twist", -y, (-2, 2), 0),
         ]
         parts.append(_part(part, servos, f"rpy: [{roll} deg, 90 deg, 0]", 0.04, 0.035))
     return _description("crane", parts)

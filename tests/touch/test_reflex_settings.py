@@ -83,7 +83,9 @@ def test_reflex_joins_taxels_within_reach_to_one_touch(centred_harness) -> None:
     centred_harness.robot.forces[near[np.argsort(apart)[1]]] = 0.06
     centred_harness.run(0.02)
     (response,) = [
-        e for e in centred_harness.robot.reflex_messages if isinstance(e, interfaces.Event)
+        e
+        for e in centred_harness.robot.reflex_messages
+        if isinstance(e, interfaces.Event) and e.field == "lower_arm_under"
     ]
     assert 0.2 < response.force < 0.35
     centred_harness.worker().params.set({"reach": 0.002})

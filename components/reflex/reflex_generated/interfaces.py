@@ -199,7 +199,9 @@ class LimitCause(rt.Enum):
     Obstacle = 3
 
 
-class Limitation(rt.Struct, type_id="RoboCompReflex::Limitation"):
+class Limitation(
+    rt.Struct, type_id="RoboCompReflex::Limitation", units={"time": "s", "pause": "s"}
+):
     """A withdrawal that is smaller than its touch requires, or an obstacle that
     prevents the return.
     """

@@ -248,8 +248,9 @@ TAXELS_UNANSWERED = Code(
     Severity.WARNING,
     "taxels without a receptive field",
     """\
-A touch moves the arm only if its place is in a receptive field of the limb. The finding has the
-share of the taxels that no field contains. Parts without fields are not reported.
+A touch moves the arm only if its place is in a receptive field of the limb. More than 10 % of the
+taxels of this limb are in no field; the finding has the share. Parts without fields are not
+reported.
 
 Wrong, for skin all around the limb:
 

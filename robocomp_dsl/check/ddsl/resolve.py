@@ -142,7 +142,7 @@ class _Resolver:
             )
         valid = [c for c in all_connections if not _follows_error(c, written.faulty_instances)]
         check_carriers(valid, middleware, hosts, known_middlewares, report)
-        check_interface_versions(valid, report)
+        check_interface_versions(valid, middleware, known_middlewares, report)
         clock = resolve_clock(tree.clock, order, complete=complete, report=report)
         check_clock_hosts(tree.clock, clock, order, hosts, report)
         return Deployment(

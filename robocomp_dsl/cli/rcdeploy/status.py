@@ -9,6 +9,7 @@ import json
 import shutil
 import sys
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -70,6 +71,7 @@ class DeploymentReport:
             "externals": [program.as_dict() for program in found.externals],
             "connections": [connection.as_dict() for connection in found.connections],
             "problems": list(found.problems),
+            "last_lines": {name: list(lines) for name, lines in found.last_lines.items()},
         }
 
     def as_text(self, width: int, *, colours: bool) -> list[str]:
@@ -81,7 +83,16 @@ class DeploymentReport:
         lines += [" ".join(program.format()) for program in found.externals]
         lines += ["", *format_connections(found.connections)] if found.connections else []
         lines += ["", *found.problems] if found.problems else []
+        lines += _last_lines(found)
         return lines + status.format_hangs(found.rows, time.time())
+
+
+def _last_lines(found: DeploymentStatus) -> Iterator[str]:
+    for name, log_lines in found.last_lines.items():
+        from robocomp_dsl.cli.output.render import strip_control_chars  # noqa: PLC0415 - seldom
+
+        yield from ("", f"{name} failed; the end of its log:")
+        yield from (f"    {strip_control_chars(line)}" for line in log_lines)
 
 
 def _report(engine: Engine) -> DeploymentReport:

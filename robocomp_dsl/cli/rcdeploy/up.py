@@ -94,6 +94,12 @@ MEGABYTE = 1_000_000
 @click.option(
     "-f", "--follow", is_flag=True, help="On several hosts: show the logs until Ctrl-C afterwards."
 )
+@click.option(
+    "--clock-limit",
+    type=click.FloatRange(min=0),
+    metavar="MS",
+    help="On several hosts: warn if a clock differs by more; default: 50.",
+)
 def command(
     app: Path,
     folders: tuple[Path, ...],
@@ -102,6 +108,7 @@ def command(
     domain: str | None,
     show_traceback: bool,
     follow: bool,
+    clock_limit: float | None,
     **how: Any,
 ) -> None:
     """Check the deployment, start its components in order, and supervise them.
@@ -125,8 +132,10 @@ def command(
         from robocomp_dsl.cli.rcdeploy import up_hosts  # noqa: PLC0415 - loads asyncssh
 
         up_hosts.reject_options(how)
-        up_hosts.command(checked, follow=follow)
+        up_hosts.command(checked, follow=follow, clock_limit_ms=clock_limit)
         return
+    if clock_limit is not None:
+        raise click.UsageError("--clock-limit is for several hosts")
     if follow:
         raise click.UsageError("--follow is for several hosts; on one machine `up` shows the logs")
     _reject_hosted(checked.plan.name)

@@ -16,6 +16,7 @@ from robocomp_dsl.cli.rcdeploy.running import say
 from robocomp_dsl.deploy import instances
 from robocomp_dsl.deploy.hosts.deployer import Deployer, Rejected
 from robocomp_dsl.deploy.hosts.errors import HostError
+from robocomp_dsl.deploy.hosts.host_checks import HostLimits
 
 Result = TypeVar("Result")
 
@@ -38,12 +39,15 @@ def _ignore(text: str) -> None:
     """Print nothing."""
 
 
-def command(checked: CheckedDeployment, *, follow: bool) -> None:
+def command(
+    checked: CheckedDeployment, *, follow: bool, clock_limit_ms: float | None = None
+) -> None:
     """Deploy, wait until all components are ready, and print how it went."""
+    limits = HostLimits() if clock_limit_ms is None else HostLimits(clock_s=clock_limit_ms / 1e3)
     assert checked.plan  # noqa: S101 - it was checked
     name = checked.plan.name
     _reject_supervised(name)
-    result = run(checked, Deployer.up)
+    result = run(checked, Deployer.up, limits=limits)
     version = result.version
     if not result.changes:
         say(f"{name}: nothing changes, version {version} runs as described")
@@ -73,11 +77,12 @@ def run(
     work: Callable[[Deployer], Coroutine[Any, Any, Result]],
     *,
     quiet: bool = False,
+    limits: HostLimits | None = None,
 ) -> Result:
     """Run `work` of a deployer; its findings are printed. Raises `CliError`."""
     assert checked.plan  # noqa: S101 - it was checked
     assert checked.deployment  # noqa: S101
-    deployer = Deployer(checked.deployment, checked.plan, _ignore if quiet else say)
+    deployer = Deployer(checked.deployment, checked.plan, _ignore if quiet else say, limits)
     try:
         result = asyncio.run(work(deployer))
     except Rejected as rejected:

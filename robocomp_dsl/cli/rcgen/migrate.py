@@ -121,7 +121,7 @@ def _migrate(
                 folder = out / f"{Path(world).stem}_simulator"
                 write(folder, _simulator(out / world, folder, folders, report))
             check_migrated_files(plan, out, folders, report)
-            write(out, [migration_report(plan, report, _path_formatter(inputs, out))])
+            write(out, [migration_report(plan, report, _path_formatter(out))])
     except CannotWrite as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None
     people = output_format in options.HUMAN_FORMATS
@@ -151,14 +151,11 @@ def _simulator(
     return files
 
 
-def _path_formatter(inputs: tuple[Path, ...], out: Path) -> Callable[[Path], str]:
-    """Formats paths in the report: relative to the folder of an input or of the output."""
+def _path_formatter(out: Path) -> Callable[[Path], str]:
+    """Formats paths in the report: relative to the output folder, which contains the report."""
+    base = out.resolve()
 
     def shown(path: Path) -> str:
-        absolute = path.resolve()
-        for folder in (*inputs, out):
-            if absolute.is_relative_to(folder.resolve()):
-                return absolute.relative_to(folder.resolve().parent).as_posix()
-        return path.name
+        return Path(os.path.relpath(path.resolve(), base)).as_posix()
 
     return shown

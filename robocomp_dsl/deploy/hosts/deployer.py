@@ -23,7 +23,7 @@ from robocomp_dsl.deploy.hosts.host_checks import (
     describe_failure,
     host_spans,
 )
-from robocomp_dsl.deploy.hosts.host_engine import show_last_lines
+from robocomp_dsl.deploy.hosts.last_lines import show_last_lines
 from robocomp_dsl.deploy.hosts.placing import candidate_hosts, place_on
 from robocomp_dsl.deploy.hosts.registry import HostedDeployment
 from robocomp_dsl.deploy.hosts.rollout import (

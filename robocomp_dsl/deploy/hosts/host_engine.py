@@ -24,6 +24,7 @@ from robocomp_dsl.deploy.hosts.fleet import Fleet, open_fleet
 from robocomp_dsl.deploy.hosts.host_agent import HostAgent
 from robocomp_dsl.deploy.hosts.host_report import UnitState
 from robocomp_dsl.deploy.hosts.host_rows import host_rows
+from robocomp_dsl.deploy.hosts.last_lines import fetch_last_lines, show_last_lines
 from robocomp_dsl.deploy.hosts.manifest import HostedComponent, HostManifest, host_as_dict
 from robocomp_dsl.deploy.hosts.registry import HostedDeployment
 from robocomp_dsl.deploy.hosts.rollout import (
@@ -100,8 +101,9 @@ class HostEngine:
         async with self._fleet(STATUS_SILENCE_S) as fleet:
             reports = await fleet.reports(usage=True)
             denials = await latest_denials(fleet, reports)
+            rows = [row for report in reports.values() for row in host_rows(report)]
+            last_lines = await fetch_last_lines(fleet, rows)
         order = {name: i for i, name in enumerate(self.components())}
-        rows = [row for report in reports.values() for row in host_rows(report)]
         rows = [replace(row, note=row.note or denials.get(row.name, "")) for row in rows]
         for host in fleet.failures:
             rows += [
@@ -111,7 +113,7 @@ class HostEngine:
             ]
         rows.sort(key=lambda row: order.get(row.name, len(order)))
         problems = [_describe_failure(error) for error in fleet.failures.values()]
-        return DeploymentStatus(rows, problems=problems)
+        return DeploymentStatus(rows, problems=problems, last_lines=last_lines)
 
     def change(self, verb: str, names: Sequence[str], report: Report) -> int:
         """See `Engine`."""
@@ -280,22 +282,3 @@ def run_async(work: Coroutine[Any, Any, Result]) -> Result:
 
 def _describe_failure(error: HostError) -> str:
     return f"{error.message}; {error.help}" if error.help else error.message
-
-
-async def show_last_lines(
-    fleet: Fleet, component: HostedComponent, report: Report, count: int = 10
-) -> None:
-    """Report the last log lines of a component that failed."""
-    from robocomp_dsl.deploy.hosts.log_records import FileRecords  # noqa: PLC0415 - for failures
-    from robocomp_dsl.deploy.logs import format_record  # noqa: PLC0415
-
-    agent = fleet.agents.get(component.host)
-    if agent is None:
-        return
-    try:
-        text = await agent.tail(component.name)
-    except HostError:
-        return
-    records = FileRecords(component.name, component.host).feed(text.encode(), time.time())
-    for record in records[-count:]:
-        report(f"    {format_record(record, len(component.name), colours=False)}")

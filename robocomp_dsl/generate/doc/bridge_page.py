@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from robocomp_dsl.generate.doc.bridge_figure import bridge_figure
-from robocomp_dsl.generate.doc.deployment_page import format_qos
 from robocomp_dsl.generate.doc.nodes import (
     Block,
     DocumentationPage,
@@ -34,6 +33,7 @@ from robocomp_dsl.model.bridge_values import (
     HubPolicy,
 )
 from robocomp_dsl.model.interface import Param
+from robocomp_dsl.model.qos_text import qos_statements
 from robocomp_dsl.model.types import Field
 
 _INPUTS = ("input", "message", "over", "address", "quality", "what it is")
@@ -108,7 +108,7 @@ def _place(port: BridgePort) -> tuple[Inlines, Inlines]:
 def _input(item: BridgeInput, site: DocumentationSite) -> TableRow:
     message = _parameters(item.parameters, site)
     over, address = _place(item.port)
-    quality = plain_text(format_qos(item.port.qos))
+    quality = plain_text(", ".join(qos_statements(item.port.qos)))
     return TableRow(
         (inline_code(item.name), message, over, address, quality, flatten_doc(item.doc))
     )
@@ -128,7 +128,7 @@ def _output(output: BridgeOutput, site: DocumentationSite) -> TableRow:
     port = output.port
     when = f"at {output.rate_hz:g}\u00a0Hz" if output.rate_hz else "when its inputs are complete"
     over, address = _place(port)
-    quality = plain_text(format_qos(port.qos))
+    quality = plain_text(", ".join(qos_statements(port.qos)))
     message = _parameters(port.operation.inputs, site)
     cells = (inline_code(output.name), message, over, address, plain_text(when), quality)
     return TableRow((*cells, flatten_doc(output.doc)))

@@ -34,10 +34,10 @@ from robocomp_dsl.model.deployment import (
     Group,
     Host,
     Instance,
-    Qos,
 )
 from robocomp_dsl.model.limits_text import format_limits
 from robocomp_dsl.model.port_middlewares import connection_middleware
+from robocomp_dsl.model.qos_text import qos_statements
 
 
 def deployment_page(deployment: Deployment, site: DocumentationSite) -> DocumentationPage:
@@ -160,7 +160,7 @@ def _connection(connection: Connection, site: DocumentationSite) -> tuple[Inline
 
 def _conditions(connection: Connection) -> Iterator[Inlines]:
     """The quality of service, monitors and the condition of a connection."""
-    if qos := format_qos(connection.qos):
+    if qos := ", ".join(qos_statements(connection.qos)):
         yield plain_text(qos)
     for monitor in connection.monitors:
         yield (PlainText("monitor "), InlineCode(monitor.class_name))
@@ -187,20 +187,6 @@ def _external_connection(link: ExternalConnection) -> tuple[Inlines, ...]:
         inline_code(link.middleware),
         plain_text(link.carrier),
     )
-
-
-def format_qos(qos: Qos) -> str:
-    """The explicit QoS settings; empty for none."""
-    reliable = {True: "reliable", False: "best effort", None: ""}[qos.reliable]
-    priority = f"priority {qos.priority}" if qos.priority else ""
-    depth = "" if qos.depth is None else f"depth {qos.depth}"
-    keep_all = "keep all" if qos.keep_all else ""
-    latched = "latched" if qos.latched else ""
-    liveliness = "" if qos.liveliness_ms is None else f"liveliness {qos.liveliness_ms:g} ms"
-    thread = "" if qos.thread_priority is None else f"thread priority {qos.thread_priority}"
-    deadline = "" if qos.deadline_ms is None else f"deadline {qos.deadline_ms:g} ms"
-    parts = (reliable, priority, keep_all, depth, latched, deadline, liveliness, thread)
-    return ", ".join(part for part in parts if part)
 
 
 def _group(group: Group) -> tuple[Inlines, ...]:

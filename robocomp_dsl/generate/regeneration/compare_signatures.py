@@ -11,6 +11,7 @@ would fail.
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_dsl.diagnostics import Report, nearest
@@ -39,13 +40,18 @@ def missing_methods(
     for name, method in methods.items():
         if name not in has:
             is_old = name in known and (user.hierarchy.unknown or not method.code.call)
-            if not method.optional and not is_old:
+            if not method.optional and not is_old and legacy_name(name) not in has:
                 yield method
         elif (member := has[name]) is not None:
             _judge_signature(member, method, known.get(name), report)
     for name in known.keys() - methods.keys() & has.keys():
         if (member := has[name]) is not None:
             _report_stale(user, member, methods, report)
+
+
+def legacy_name(name: str) -> str:
+    """The name that RoboComp gave to the method of a state: `sm_search` for `state_search`."""
+    return re.sub(r"^state_", "sm_", name)
 
 
 def report_missing(

@@ -67,6 +67,22 @@ class PythonModule(Record):
         return self._near[name]
 
 
+def end_of_comments(text: str, at: int, indent: str) -> int:
+    """The end of the comments after the last statement of a block.
+
+    `at` is in the last line of the statement, `indent` is that of the block. Comments that are
+    indented like the block, or more, belong to it; those at the margin do not.
+    """
+    end = position = at + len(_LINE_END.split(text[at:], maxsplit=1)[0])
+    while found := _LINE_END.match(text, position):
+        line = _LINE_END.split(text[found.end() :], maxsplit=1)[0]
+        position = found.end() + len(line)
+        if line.strip() and not (line.startswith(indent) and line.lstrip().startswith("#")):
+            break
+        end = position if line.strip() else end
+    return end
+
+
 def read_bytes(path: Path) -> bytes | None:
     """The content of a file; None if there is none. Raises `UnreadableSource`."""
     try:

@@ -17,7 +17,7 @@ from robocomp_dsl.generate.python.layout import STEP
 from robocomp_dsl.generate.regeneration.compare_signatures import similar_method
 from robocomp_dsl.generate.regeneration.hierarchy import CLASS
 from robocomp_dsl.generate.regeneration.methods import Method
-from robocomp_dsl.generate.regeneration.python_module import Function
+from robocomp_dsl.generate.regeneration.python_module import Function, end_of_comments
 from robocomp_dsl.generate.regeneration.user_module import UserModule, bound_names, parsed
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.source import Source
@@ -51,7 +51,7 @@ def added(user: UserModule, missing: Sequence[Method], package: str) -> str:
     found = _class(user)
     local, lines = _imports(user, missing, package)
     stubs = "".join(_stub(method, local, found) for method in missing)
-    text = _after_line(text, found.end, stubs, found.newline)
+    text = _after_line(text, end_of_comments(text, found.end, found.indent), stubs, found.newline)
     if found.open is not None:
         text = f"{text[: found.open]}{found.newline}{found.indent}{text[found.open :]}"
     if lines:

@@ -16,6 +16,8 @@ Kind: TypeAlias = Literal[
     "texture",
     "size",
     "overlap",  # bodies that collide in the initial pose
+    "unlikely",  # a value that is probably a mistake
+    "range",  # limits of a joint that are probably a mistake
 ]
 
 MODEL_TEXT = SourceText("")

@@ -143,17 +143,18 @@ class MissingFiles:
                 )
         return "; ".join(parts)
 
-    def help(self, search: FileSearch) -> str:
-        """Where the files were searched, and what to do."""
+    def help(self, search: FileSearch, *, option: bool = True) -> str:
+        """Where the files were searched, and what to do; `option`: there is `--files`."""
         links = [path for path in self._paths() if _is_link(path)]
         if any(_ANNEX in str(path.readlink()) for path in links):
             return f"git-annex has not fetched their content: `git annex get` in {links[0].parent}"
         named = [str(folder) for folder in search.folders]
         beside = f"{search.world} and the folders above it"
         end = "/".join(_parts(self._paths()[0])[-2:])
+        ways = f"`--files DIR` or {VARIABLE}=DIR" if option else f"{VARIABLE}=DIR"
         return (
             f"searched by the end of the path in {', '.join([*named, beside])};"
-            f" `--files DIR` or {VARIABLE}=DIR names the folder that has `{end}`"
+            f" {ways} names the folder that has `{end}`"
         )
 
     def _paths(self) -> list[Path]:

@@ -16,6 +16,7 @@ from robocomp_dsl.runtime.component.wiring import Wiring
 from robocomp_dsl.runtime.connection.component_ports import ComponentPorts
 from robocomp_dsl.runtime.connection.connections_interface import ConnectionInfo, ConnectionState
 from robocomp_dsl.runtime.connection.endpoint import NOBODY, Endpoint
+from robocomp_dsl.runtime.connection.interface_version import is_other_version
 from robocomp_dsl.runtime.connection.peer_selection import matches
 from robocomp_dsl.runtime.connection.qos_merge import connection_qos, sender_qos
 from robocomp_dsl.runtime.connection.usable_records import is_reachable
@@ -140,10 +141,15 @@ def _as_endpoint(at: Endpoint, record: PortRecord) -> Endpoint:
     return Endpoint(at.interface, record.component, record.port, record.peers)
 
 
+def _needs_same_version(record: PortRecord) -> bool:
+    """Whether all operations must be the same; otherwise those work that are."""
+    capabilities = registry.known_capabilities(record.middleware)
+    return record.role != "server" and not (capabilities and capabilities.topic_versions)
+
+
 def _obstacle(record: PortRecord, at: Endpoint) -> str:
     """Why the two ports cannot exchange anything, or ""."""
-    is_topic = record.role != "server"  # calls work for all operations that are the same
-    if is_topic and record.hash and record.hash != at.interface.hash.hex():
+    if _needs_same_version(record) and is_other_version(at, record):
         return "it was generated from another version of the interface"
     if at.middlewares and record.middleware and record.middleware not in at.middlewares:
         own = ", ".join(at.middlewares)

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any
 
+from robocomp_dsl.qos_items import QOS_ITEMS, qos_values
 from robocomp_dsl.runtime.component.invalid_setting import InvalidSetting
 from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.connection.qos_merge import PRIORITIES
@@ -21,10 +22,7 @@ ITEMS = (
     f" thread_priority=1..{MAX_THREAD_PRIORITY}, and priority= with one of {', '.join(PRIORITIES)}"
 )
 FLAGS: dict[str, dict[str, Any]] = {
-    "reliable": {"reliable": True},
-    "best_effort": {"reliable": False},
-    "keep_all": {"keep_all": True},
-    "latched": {"latched": True},
+    item.option: {item.field: item.flag} for item in QOS_ITEMS if item.flag is not None
 }
 
 
@@ -124,14 +122,4 @@ def _with_item(qos: Qos, word: str) -> Qos:
 
 def format_qos(qos: Qos) -> str:
     """The inverse of `parse_items`; empty for the defaults."""
-    items = []
-    if qos.reliable is not None:
-        items.append("reliable" if qos.reliable else "best_effort")
-    items += [name for name in ("keep_all", "latched") if getattr(qos, name)]
-    for name in ("depth", "priority", "thread_priority"):
-        if (value := getattr(qos, name)) is not None:
-            items.append(f"{name}={value}")
-    for name in ("deadline", "liveliness"):
-        if (seconds := getattr(qos, name)) is not None:
-            items.append(f"{name}={seconds * 1000:g}")
-    return ",".join(items)
+    return ",".join(value.as_option() for value in qos_values(qos))

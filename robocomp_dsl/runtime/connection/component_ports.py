@@ -20,13 +20,15 @@ from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.connection.latched_messages import LatchedMessages
 from robocomp_dsl.runtime.connection.losses import LossCounter, LossCounters
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
+from robocomp_dsl.runtime.connection.published_port import PublishedPort
 from robocomp_dsl.runtime.connection.qos_merge import connection_qos, sender_qos
 from robocomp_dsl.runtime.connection.qos_support import check_qos
 from robocomp_dsl.runtime.connection.server_selector import ServerSelector
 from robocomp_dsl.runtime.connection.service_channel import ServiceChannel
 from robocomp_dsl.runtime.connection.serving_port import ServingPort
 from robocomp_dsl.runtime.connection.subscribed_port import SubscribedPort
-from robocomp_dsl.runtime.connection.topic_channel import PublishedPort, TopicChannel
+from robocomp_dsl.runtime.connection.topic_channel import TopicChannel
+from robocomp_dsl.runtime.connection.topic_versions import TopicVersions
 from robocomp_dsl.runtime.connection.usable_records import is_usable
 from robocomp_dsl.runtime.middleware import registry
 from robocomp_dsl.runtime.middleware.transport import (
@@ -197,17 +199,11 @@ class ComponentPorts:
         """See `Ports`."""
         names = self.middlewares(at)
         check_qos(at, "publisher", names)
-        ports = []
-        for middleware in names:
-            capabilities = registry.capabilities_of(middleware)
-            numbers = (
-                self.presence.number_publications(at) if capabilities.sequence_numbers else None
-            )
-            publisher = self.publisher(middleware, at)
-            ports.append(PublishedPort(middleware, capabilities, publisher, numbers))
+        ports = [self._published_port(middleware, at) for middleware in names]
         latched = LatchedMessages(at, self.presence) if sender_qos(at).latched else None
         self.presence.answer_probes()
-        channel = TopicChannel(self._context, self.presence.registry, at, ports, latched)
+        versions = TopicVersions(at, self.presence.shapes_of, self._published_port)
+        channel = TopicChannel(self._context, self.presence.registry, at, ports, versions, latched)
         for port in ports:
             record = self.declare("publisher", at, port.middleware, port.publisher.address)
             channel.records.append(record)
@@ -216,6 +212,12 @@ class ComponentPorts:
         )
         self.topics.append(channel)
         return channel
+
+    def _published_port(self, middleware: str, at: Endpoint) -> PublishedPort:
+        """A published port on one middleware; `at` may have the interface of another version."""
+        capabilities = registry.capabilities_of(middleware)
+        numbers = self.presence.number_publications(at) if capabilities.sequence_numbers else None
+        return PublishedPort(middleware, capabilities, self.publisher(middleware, at), numbers)
 
     def publisher(self, middleware: str, at: Endpoint) -> Publisher:
         """The publisher of a port on a middleware: of all its connections together."""

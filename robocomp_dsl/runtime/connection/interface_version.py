@@ -6,6 +6,7 @@ interface to connect with, which transports use as any other; or why an operatio
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping
 
 from robocomp_dsl.runtime.component.interface import Interface, Operation
@@ -13,6 +14,8 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.data.shape_difference import describe_difference
 from robocomp_dsl.runtime.errors import InterfaceMismatch
 from robocomp_dsl.runtime.presence.port_record import PortRecord
+
+log = logging.getLogger("robocomp")
 
 
 def is_other_version(at: Endpoint, peer: PortRecord) -> bool:
@@ -36,16 +39,30 @@ class PeerInterface(Interface):
         self._peer_shapes = shapes
         self._common = frozenset(known)
 
+    def has(self, operation: Operation) -> bool:
+        """Whether the peer has the operation with the same shape."""
+        return operation.name in self._common
+
+    def log_differences(self, at: Endpoint, peer: PortRecord) -> None:
+        """Log a warning that says which messages `peer` does not get from `at`."""
+        missing = [o for o in at.interface.published if o.name in self._peer_shapes]
+        texts = [f"{o.name}: {self._reason(o, peer)}" for o in missing if not self.has(o)]
+        if texts:
+            log.warning(
+                "%s does not get all messages of %s: %s", peer.component, at.name, "; ".join(texts)
+            )
+
+    def _reason(self, operation: Operation, peer: PortRecord) -> str:
+        there = self._peer_shapes.get(operation.name)
+        if there is None:
+            return f"{peer.component} does not have this operation"
+        return describe_difference(operation.shape, there)
+
     def check(self, operation: Operation, at: Endpoint, peer: PortRecord) -> None:
         """Raise `InterfaceMismatch` if the peer has the operation not, or otherwise."""
         if operation.name in self._common:
             return
-        there = self._peer_shapes.get(operation.name)
-        if there is None:
-            reason = f"{peer.component} does not have this operation"
-        else:
-            reason = describe_difference(operation.shape, there)
-        raise mismatch(at, peer, operation.name, f"{reason} (here: {at.component})")
+        raise mismatch(at, peer, operation.name, self._reason(operation, peer))
 
 
 def mismatch(at: Endpoint, peer: PortRecord, operation: str, reason: str) -> InterfaceMismatch:

@@ -8,32 +8,23 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.interface_version import is_other_version
 from robocomp_dsl.runtime.connection.latched_messages import LatchedMessages
 from robocomp_dsl.runtime.connection.peer_selection import matches
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
+from robocomp_dsl.runtime.connection.published_port import PublishedPort
+from robocomp_dsl.runtime.connection.topic_versions import TopicVersions
 from robocomp_dsl.runtime.errors import NotPublishable
-from robocomp_dsl.runtime.middleware.capabilities import Capabilities
 from robocomp_dsl.runtime.middleware.transport import Publisher
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.port_registry import PortRegistry
-from robocomp_dsl.runtime.presence.presence import Presence, PublicationNumbers
+from robocomp_dsl.runtime.presence.presence import Presence
 from robocomp_dsl.runtime.presence.sequence_format import SEQUENCE_FORMAT
-
-
-@dataclass(slots=True)
-class PublishedPort:
-    """The port on one middleware; `numbers` is None if its publications carry none."""
-
-    middleware: str
-    capabilities: Capabilities
-    publisher: Publisher
-    numbers: PublicationNumbers | None = None
 
 
 class TopicChannel:
@@ -45,6 +36,7 @@ class TopicChannel:
         registry: PortRegistry,
         at: Endpoint,
         ports: list[PublishedPort],
+        versions: TopicVersions,
         latched: LatchedMessages | None = None,
     ) -> None:
         self.timeout = 0.0
@@ -52,6 +44,7 @@ class TopicChannel:
         self._registry = registry
         self._at = at
         self._ports = ports
+        self._versions = versions
         self._latched = latched
         self.records: list[PortRecord] = []
         self._rebind: list[Callable[[], None]] = []
@@ -75,17 +68,15 @@ class TopicChannel:
             publish = self._publication(operation, functions)
 
         self._change_latched.append(change)
-        if not self._attaching:
-
-            def publish_now(*arguments: Any) -> None:
-                publish(*arguments)
-
-            return publish_now
+        others = self._versions.bind(operation)
 
         def attach_and_publish(*arguments: Any) -> None:
             if self._version != self._registry.version:
                 self._attach()
             publish(*arguments)
+            if others:
+                for publish_to_version in tuple(others):
+                    publish_to_version(*arguments)
 
         return attach_and_publish
 
@@ -221,6 +212,7 @@ class TopicChannel:
                 if key not in self._attached:
                     self._attached[key] = port
                     port.publisher.attach(key[1])
+            self._versions.update(self._at, self._versioned_subscribers())
             self._version = version
 
     def _subscribers_to_attach(self) -> dict[tuple[str, PortRecord], PublishedPort]:
@@ -244,17 +236,26 @@ class TopicChannel:
             reached |= {record.name for _, record in current}
         return current
 
+    def _versioned_subscribers(self) -> list[PortRecord]:
+        """The subscribers with any version of the interface, where the middleware carries it."""
+        found = self._registry.find("subscriber", self._at.interface.name)
+        capable = {p.middleware for p in self._ports if p.capabilities.topic_versions}
+        return [r for r in found if r.middleware in capable and self._subscribes(r)]
+
     def _is_subscriber(self, record: PortRecord) -> bool:
-        """Whether a port on the same middleware subscribes to this port."""
+        """Whether a port on the same middleware subscribes to this version of this port."""
+        return not is_other_version(self._at, record) and self._subscribes(record)
+
+    def _subscribes(self, record: PortRecord) -> bool:
         at = Endpoint(self._at.interface, record.component, record.port, record.peers)
-        return (
-            any(port.middleware == record.middleware for port in self._ports)
-            and record.hash == self._at.interface.hash.hex()
-            and matches(at, self._at.component, self._at.port)
+        return any(port.middleware == record.middleware for port in self._ports) and matches(
+            at, self._at.component, self._at.port
         )
 
     def _is_other_subscriber(self, record: PortRecord) -> bool:
-        return record.component != self._at.component and self._is_subscriber(record)
+        if record.component == self._at.component:
+            return False
+        return self._is_subscriber(record) or record in self._versioned_subscribers()
 
     def wait(self, timeout: float) -> bool:
         """See `ports.Channel`."""
@@ -270,9 +271,9 @@ class TopicChannel:
 
     def has_subscribers(self) -> bool:
         """See `ports.Channel`; subscribers that are no components count, too."""
-        if self._attaching and self._version != self._registry.version:
+        if self._version != self._registry.version:
             self._attach()
-        if self._attached:
+        if self._attached or self._versions.has_subscribers():
             return True
         for port in self._ports:
             known = port.publisher.has_subscribers()
@@ -293,6 +294,7 @@ class TopicChannel:
         """End the port on all middlewares."""
         ports, self._ports, self._attaching = self._ports, [], []
         self._attached.clear()
+        self._versions.close()
         for port in ports:
             port.publisher.close()
             if port.numbers:

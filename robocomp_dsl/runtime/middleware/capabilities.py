@@ -34,6 +34,8 @@ class Capabilities:
     `ros_types_only`: it carries messages and services of ROS only, from `.msg` and `.srv` files.
     `external_ros_types`: components exchange any types, programs that are no components those only.
     `actions`: its programs have actions whose five topics are below the address (actionlib).
+    `topic_versions`: subscribers with another version of the interface get the operations that are
+    the same; otherwise they get nothing.
     """
 
     between_processes: bool = True
@@ -53,6 +55,7 @@ class Capabilities:
     ros_types_only: bool = False
     external_ros_types: bool = False
     actions: bool = False
+    topic_versions: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -70,8 +70,8 @@ class PortRegistry:
         expected = self._expected_peers.get((record.role, record.interface))
         if expected and record.hash and record.hash != expected[0]:
             log.warning(
-                "%s and %s cannot communicate: they were generated from different versions of"
-                " %s (InterfaceMismatch); generate both from the same IDSL file",
+                "%s and %s have different versions of %s (InterfaceMismatch): messages of"
+                " operations that differ do not arrive; generate both from the same IDSL file",
                 expected[1],
                 record.component,
                 record.interface,

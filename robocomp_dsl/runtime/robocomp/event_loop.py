@@ -14,6 +14,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 from robocomp_dsl.runtime.clock import TIME_DIGITS, Clock, WakeEvent
 from robocomp_dsl.runtime.component.user_errors import log_failure
@@ -32,9 +33,9 @@ class EventLoop:
     _current = threading.local()
     _latest: EventLoop | None = None
 
-    def __init__(self, request_stop: Callable[[], None] = lambda: None) -> None:
+    def __init__(self) -> None:
         EventLoop._latest = self
-        self.quit = request_stop
+        self.application: Any = None
         self._lock = threading.RLock()
         self._guard = threading.Lock()
         self._posted: deque[Callable[[], object]] = deque()
@@ -109,6 +110,15 @@ class EventLoop:
                     if outer is None:
                         self._left.set()
                         _raise_in(threading.get_ident(), None)
+
+    def run_due(self) -> None:
+        """Run what is posted or due, during a function of the loop."""
+        self._run_posted()
+        while self._clock is not None and not self.stopped:
+            function = self._next(self._clock)
+            if function is None:
+                return
+            function()
 
     def _run_posted(self) -> None:
         """Run the functions that are posted now; those that they post run later."""

@@ -10,13 +10,14 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-from robocomp_dsl.runtime.robocomp.event_loop import EventLoop
+from robocomp_dsl.runtime.robocomp.application import QApplication, qApp
 from robocomp_dsl.runtime.robocomp.mutexes import QMutex, QMutexLocker, QRecursiveMutex
 from robocomp_dsl.runtime.robocomp.signals import Signal
 from robocomp_dsl.runtime.robocomp.timers import QTimer
 
 __all__ = [
     "QApplication",
+    "QCoreApplication",
     "QMutex",
     "QMutexLocker",
     "QRecursiveMutex",
@@ -26,6 +27,7 @@ __all__ = [
     "QtWidgets",
     "Signal",
     "Slot",
+    "qApp",
 ]
 
 
@@ -34,20 +36,7 @@ def Slot(*_: object, **__: object) -> Callable[[Any], Any]:
     return lambda method: method
 
 
-class QApplication:
-    """The application: `quit` stops the component."""
-
-    @staticmethod
-    def instance() -> QApplication:
-        """The application."""
-        return QApplication()
-
-    @staticmethod
-    def quit() -> None:
-        """Stop the component."""
-        EventLoop.current().quit()
-
-
+QCoreApplication = QApplication
 QtCore = SimpleNamespace(
     QCoreApplication=QApplication,
     QMutex=QMutex,
@@ -58,6 +47,7 @@ QtCore = SimpleNamespace(
     Slot=Slot,
     pyqtSignal=Signal,
     pyqtSlot=Slot,
+    qApp=qApp,
 )
-QtWidgets = SimpleNamespace(QApplication=QApplication)
-QtGui = SimpleNamespace(QApplication=QApplication)
+QtWidgets = SimpleNamespace(QApplication=QApplication, qApp=qApp)
+QtGui = SimpleNamespace(QApplication=QApplication, qApp=qApp)

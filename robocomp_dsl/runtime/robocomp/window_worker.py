@@ -22,8 +22,8 @@ from robocomp_dsl.runtime.robocomp.worker import (
 class QtLoop(EventLoop):
     """The event loop of Qt, for state machines; create it in the thread of Qt."""
 
-    def __init__(self, request_stop: Callable[[], None]) -> None:
-        super().__init__(request_stop)
+    def __init__(self) -> None:
+        super().__init__()
         self._thread = get_ident()
         self._application = QtCore.QCoreApplication.instance()
 
@@ -49,7 +49,7 @@ class LegacyWindow(LegacyWorker):
     def begin(self, old_init: Callable[..., object]) -> None:
         """See `LegacyWorker.begin`."""
         window: Any = self
-        loop = self._loop = QtLoop(self._request_stop)
+        loop = self._loop = QtLoop()
         self.Period = DEFAULT_PERIOD_MS
         self.timer = QtCore.QTimer(window)
         self.mutex = QtCore.QRecursiveMutex()

@@ -13,6 +13,7 @@ from functools import partial
 from typing import Any, ClassVar, TypeAlias
 
 from robocomp_dsl.runtime.component.component import Component
+from robocomp_dsl.runtime.robocomp.application import Application
 from robocomp_dsl.runtime.robocomp.event_loop import EventLoop
 from robocomp_dsl.runtime.robocomp.machines import DefaultMachine, MachineControl, MachineSignal
 from robocomp_dsl.runtime.robocomp.mutexes import QMutex
@@ -51,23 +52,33 @@ class LegacyWorker(Component):
     t_initialize_to_compute: MachineSignal
     t_compute_to_compute: MachineSignal
     t_compute_to_finalize: MachineSignal
+    configData: dict[str, Any]
     _loop: EventLoop
+    _old_init: ClassVar[_Init]
 
-    def __init__(self, *_: object, **__: object) -> None:
+    def __init__(self, *arguments: object, **__: object) -> None:
         super().__init__()
+        if not arguments:  # called by the runtime, not by the old `__init__`
+            self.initialize = self._start  # type: ignore[method-assign]
 
     def __init_subclass__(cls, **rest: Any) -> None:
         super().__init_subclass__(**rest)
         if cls.__name__ == WORKER:
             _adapt(cls)
 
-    def initialize(self) -> None:
-        """A hook of the component; RoboComp's workers have `__init__` and `setParams` instead."""
+    def _start(self) -> None:
+        """Start as RoboComp did; a class without `__init__` has the hook of the component."""
+        del self.initialize  # old code may have a method of this name
+        old_init = type(self)._old_init
+        self.begin(old_init)
+        if old_init is LegacyWorker.__init__:
+            self.initialize()
 
     def begin(self, old_init: _Init) -> None:
         """Create what the old base class had, and call the old `__init__` and `setParams`."""
         life, clock, name, stop = self._lifecycle, self.clock, self.name, self._request_stop
-        loop = self._loop = EventLoop(stop)
+        loop = self._loop = EventLoop()
+        loop.application = Application(loop, stop)
         life.on_stop.append(loop.stop)
         self.Period = DEFAULT_PERIOD_MS
         self.timer = ComputeTimer(loop, life.set_period)
@@ -98,6 +109,7 @@ class LegacyWorker(Component):
         settings = old_settings(
             self.params, self.SETTINGS, tables=self.TABLES or _takes_settings(old_init)
         )
+        self.configData = settings
         if old_init is not LegacyWorker.__init__:
             proxies = {key: getattr(self, attribute) for key, attribute in self.PROXIES}
             old_init(self, *([proxies, settings] if _takes_settings(old_init) else [proxies]))
@@ -122,17 +134,12 @@ def _takes_settings(old_init: _Init) -> bool:
 
 
 def _adapt(cls: Any) -> None:
-    """Make the user's class call its old methods from `initialize`."""
-    old_init, own_initialize = cls.__init__, cls.initialize
-
-    def initialize(self: Any) -> None:
-        self.begin(old_init)
-        own_initialize(self)
-
+    """Let the runtime create the object first, and call its old `__init__` later."""
+    cls._old_init = cls.__init__
     for state in cls.STATES:
         if hasattr(cls, f"sm_{state}") and f"on_enter_{state}" not in vars(cls):
             setattr(cls, f"on_enter_{state}", _slot(f"sm_{state}"))
-    cls.__init__, cls.initialize = LegacyWorker.__init__, initialize
+    cls.__init__ = LegacyWorker.__init__
 
 
 def _slot(name: str) -> Callable[[Any], None]:
@@ -165,6 +172,7 @@ class _LegacyHooks:
                 self._worker.compute()
 
     def finalize(self) -> None:
-        """Finalize, and emit `destroyed`."""
+        """Emit `aboutToQuit`, finalize, and emit `destroyed`."""
+        self._loop.application.aboutToQuit.call_slots()
         self._worker.finalize()
         self._worker.destroyed.call_slots()

@@ -47,7 +47,8 @@ class Laser:
     """The device. `name` is the name of its site in the MuJoCo model.
 
     Rays ignore `carrier` with all its descendants: a body, by default the tree of bodies that
-    the laser is mounted in. `level` is a factor on the noise.
+    the laser is mounted in. If that is the world, they ignore nothing. `level` is a factor on the
+    noise.
     """
 
     def __init__(
@@ -97,7 +98,9 @@ class Laser:
             top = int(model.body(self._carrier).id)
         else:
             top = int(model.body_rootid[self._body])
-        self._own = mount_on(model, top)[model.geom_bodyid]
+        # a laser in the world itself is carried by nothing: it sees all shapes
+        self._own = mount_on(model, top)[model.geom_bodyid] & (top > 0)
+        self._ignored = self._body if top else -1
         self._in_its_way = bool(self._own.any())
 
     def after_step(self, dt: float) -> None:
@@ -132,7 +135,7 @@ class Laser:
             rays.ravel(),
             None,
             True,
-            self._body,
+            self._ignored,
             geoms,
             distances,
             None,
@@ -151,7 +154,9 @@ class Laser:
         geom = np.empty(1, np.int32)
         for _ in range(_OWN_SURFACES):
             start = origin + ray * (reached + _PAST)
-            more = mujoco.mj_ray(self._model, self._data, start, ray, None, True, self._body, geom)
+            more = mujoco.mj_ray(
+                self._model, self._data, start, ray, None, True, self._ignored, geom
+            )
             if more < 0:
                 return -1.0
             reached += _PAST + more

@@ -21,6 +21,16 @@ from robocomp_dsl.simulation.scene import axes
 _PRESSED = 1e-3  # N
 
 
+def feels(spec: Any, body: str) -> bool:
+    """Whether a shape of the body, or of bodies in it, collides; one without could never touch."""
+    todo = [spec.body(body)]
+    for holder in todo:
+        if any(geom.contype or geom.conaffinity for geom in holder.geoms):
+            return True
+        todo.extend(holder.bodies)
+    return False
+
+
 @dataclass(frozen=True, slots=True)
 class TouchSettings:
     """`normal` points out of the sensor; all zero: all directions. Bounds are in N."""
@@ -46,15 +56,8 @@ class TouchSensor:
 
     def build(self, spec: Any) -> None:
         """Nothing to add: the shapes in its frame are the sensor. Raises `SceneError` without."""
-        todo = [spec.body(self._at)]
-        for body in todo:
-            if any(geom.contype or geom.conaffinity for geom in body.geoms):
-                return
-            todo.extend(body.bodies)
-        raise SceneError(
-            f"`{self.name}` would never feel anything: no shape in it collides "
-            "(a mesh that cannot be read does not)"
-        )
+        if not feels(spec, self._at):
+            raise SceneError(f"`{self.name}` would never feel anything: no shape in it collides")
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:  # noqa: ARG002
         """Find the frame."""

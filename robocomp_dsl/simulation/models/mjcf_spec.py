@@ -10,6 +10,7 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+from xml.parsers import expat
 
 import mujoco
 import numpy as np
@@ -19,30 +20,64 @@ from robocomp_dsl.hardware.description.findings import ModelFileError, model_fin
 from robocomp_dsl.hardware.description.model_paths import resolve
 from robocomp_dsl.hardware.formats.mesh_file import read_surface
 from robocomp_dsl.hardware.formats.surface import MeshError, used_part
+from robocomp_dsl.regular_file import read_text
 from robocomp_dsl.simulation.models.mesh_geom import MeshCache, Settings, is_flat
 
 _POINT = 1e-6  # m
 _ITS_OWN = {".obj", ".msh"}
+_INCLUDE = re.compile(r"<\s*include\b[^>]*\bfile\s*=\s*[\"']([^\"']+)")
+_PREFIX = re.compile(r"^(?:(?:XML )?Error:\s*)+")
 _LINE = re.compile(r"line(?: number=|\s+)(\d+)", re.IGNORECASE)
 
 
 def build_mjcf(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[Finding]]:
     """The model in the file at `path`. Raises `ModelFileError`."""
     try:
-        spec = mujoco.MjSpec.from_file(str(path))
+        spec = _parse(path)
     except (ValueError, mujoco.FatalError) as error:
-        raise error_with_line(error) from None
+        raise _malformed(path) or error_with_line(error) from None
     findings: list[Finding] = []
     _replace_meshes(spec, path, packages, findings)
     _drop_textures(spec, path, packages, findings)
     return spec, findings
 
 
+def _parse(path: Path) -> Any:
+    """The file as a spec. MuJoCo reads files of other suffixes than `.xml` as text only."""
+    if path.suffix.lower() == ".xml":
+        return mujoco.MjSpec.from_file(str(path))
+    text = read_text(path)
+    included: dict[str, bytes] = {}
+    _collect_included(text, path.parent, included)
+    spec = mujoco.MjSpec.from_string(text, include=included)
+    spec.modelfiledir = str(path.parent)
+    return spec
+
+
+def _malformed(path: Path) -> ModelFileError | None:
+    """The first place that is not XML, in words; None for XML, whose errors are MuJoCo's."""
+    try:
+        expat.ParserCreate().Parse(path.read_bytes(), True)
+    except expat.ExpatError as error:
+        reason = expat.ErrorString(error.code)
+        return ModelFileError(f"this is not well-formed XML: {reason}", error.lineno)
+    return None
+
+
+def _collect_included(text: str, folder: Path, included: dict[str, bytes]) -> None:
+    """The files that `text` includes, by their names; a missing one is MuJoCo's error."""
+    for name in _INCLUDE.findall(text):
+        file = folder / name
+        if name not in included and file.is_file():
+            included[name] = file.read_bytes()
+            _collect_included(read_text(file), folder, included)
+
+
 def error_with_line(error: Exception) -> ModelFileError:
     """MuJoCo's error about a file, with its line."""
     message = str(error)
     line = _LINE.search(message)
-    words = " ".join(message.replace("XML Error:", "").removeprefix("Error:").split())
+    words = _PREFIX.sub("", " ".join(message.split()))
     return ModelFileError(words, int(line[1]) if line else 0)
 
 

@@ -32,5 +32,5 @@ def with_found_files(scene: Scene, folder: Path, log: Logger) -> Scene:
         ((box.id, box.texture) for box in boxes if box.texture),
     )
     if missing:
-        log.warning("%s (%s)", missing.message, missing.help(search))
+        log.warning("%s (%s)", missing.message, missing.help(search, option=False))
     return replace(scene, boxes=boxes, meshes=meshes)

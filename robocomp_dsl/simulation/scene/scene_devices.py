@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
 from robocomp_dsl.hardware.description.falling import carrier
 from robocomp_dsl.hardware.description.scene import ROOT, Device, Frame, Scene
+from robocomp_dsl.hardware.description.scene_edit import FIXED
 from robocomp_dsl.hardware.devices.camera import CameraSettings
 from robocomp_dsl.hardware.devices.errors import SceneError
 from robocomp_dsl.hardware.devices.laser import LaserSettings
@@ -27,7 +28,7 @@ from robocomp_dsl.simulation.devices.laser import Laser, LaserMount
 from robocomp_dsl.simulation.devices.mobile_base import MobileBase
 from robocomp_dsl.simulation.devices.range_finder import RangeFinder
 from robocomp_dsl.simulation.devices.screen import Screen
-from robocomp_dsl.simulation.devices.touch_sensor import TouchSensor, TouchSettings
+from robocomp_dsl.simulation.devices.touch_sensor import TouchSensor, TouchSettings, feels
 from robocomp_dsl.simulation.devices.ultrasound import Ultrasound
 from robocomp_dsl.simulation.models.model_touch import ModelTouch
 from robocomp_dsl.simulation.scene.axes import MM
@@ -45,8 +46,12 @@ class DeviceContext:
     board: JointBoard | None = None
 
     def carrier(self, frame: str) -> str:
-        """The nearest base or falling frame from `frame` upwards; else `frame`."""
-        return frame if frame == ROOT else carrier(frame, self.frames)
+        """The nearest base or falling frame from `frame` upwards; else `frame`.
+
+        The room is not a carrier: it is the root.
+        """
+        found = frame if frame == ROOT else carrier(frame, self.frames)
+        return ROOT if found in FIXED else found
 
 
 def _laser(site: DeviceContext, device: Device) -> Laser:
@@ -193,6 +198,21 @@ SINGLE: Mapping[str, Callable[[DeviceContext, Device], Any]] = {
     "cartesian": _cartesian,
 }
 """Kinds of devices that are simulated one by one."""
+
+
+def without_blind_sensors(scene: Scene, spec: Any, notes: list[str]) -> Scene:
+    """The scene without touch sensors that could never feel anything.
+
+    Their shapes are meshes that cannot be read: those touch nothing.
+    """
+    blind = [
+        device
+        for device in scene.devices
+        if device.kind == "touchsensor" and not feels(spec, body_name(device.frame))
+    ]
+    feeling = tuple(device for device in scene.devices if device not in blind)
+    notes += [f"`{device.id}` is left out: no shape in it collides" for device in blind]
+    return replace(scene, devices=feeling) if blind else scene
 
 
 def place_cameras(scene: Scene, spec: Any) -> None:

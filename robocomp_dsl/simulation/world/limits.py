@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
-from typing import Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from robocomp_dsl.hardware.description.scene import Box, Device, Frame, Mesh, Motion, Scene
 from robocomp_dsl.hardware.devices.errors import SceneError
@@ -90,9 +90,41 @@ MOTIONS: Mapping[str, ValueRange] = {
 }
 
 
+@dataclass(frozen=True, slots=True)
+class ClampedValue:
+    """The value `name` of a node is `near`, because `value` cannot be simulated."""
+
+    id: str
+    name: str
+    near: Any
+    value: Any
+
+    def __str__(self) -> str:
+        near, value = _format(self.near), _format(self.value)
+        return f"`{self.id}`: `{self.name}` is {near} here, {value} cannot be simulated"
+
+
+Notes: TypeAlias = list[ClampedValue | str]
+
+
 def clamp_scene(scene: Scene) -> tuple[Scene, list[str]]:
     """A scene that can be simulated, and notes on the changes."""
-    notes: list[str] = []
+    clamped, notes = _clamp(scene)
+    return clamped, [str(note) for note in notes]
+
+
+def require_limits(scene: Scene) -> None:
+    """Reject values that cannot be simulated, in changes at run time. Raises `SceneError`."""
+    for it in _clamp(scene)[1]:
+        if isinstance(it, ClampedValue):
+            raise SceneError(
+                f"`{it.id}`: `{it.name}` {_format(it.value)} cannot be simulated, "
+                f"{_format(it.near)} can"
+            )
+
+
+def _clamp(scene: Scene) -> tuple[Scene, Notes]:
+    notes: Notes = []
     clamped = replace(
         scene,
         frames=tuple(_clamp_motion(_clamp_fields(part, notes), notes) for part in scene.frames),
@@ -103,15 +135,11 @@ def clamp_scene(scene: Scene) -> tuple[Scene, list[str]]:
     return (clamped if notes else scene), notes
 
 
-def require_limits(scene: Scene) -> None:
-    """Reject values that cannot be simulated, in changes at run time. Raises `SceneError`."""
-    _, notes = clamp_scene(scene)
-    if notes:
-        raise SceneError(notes[0])
-
-
 def _clamp_fields(
-    part: Value, notes: list[str], limits: Mapping[str, ValueRange] = SHAPES, id: str = ""
+    part: Value,
+    notes: Notes,
+    limits: Mapping[str, ValueRange] = SHAPES,
+    id: str = "",
 ) -> Value:
     """A part with clamped fields."""
     changed: dict[str, Any] = {}
@@ -122,18 +150,18 @@ def _clamp_fields(
         near = tuple(map(limit.clamp, value)) if isinstance(value, tuple) else limit.clamp(value)
         if near != value:
             changed[field.name] = near
-            notes.append(_note(id or getattr(part, "id", ""), field.name, near, value))
+            notes.append(ClampedValue(id or getattr(part, "id", ""), field.name, near, value))
     return replace(part, **changed) if changed else part
 
 
-def _clamp_motion(frame: Frame, notes: list[str]) -> Frame:
+def _clamp_motion(frame: Frame, notes: Notes) -> Frame:
     if frame.motion is None:
         return frame
     motion = _clamp_fields(frame.motion, notes, MOTIONS, frame.id)
     return frame if motion is frame.motion else replace(frame, motion=motion)
 
 
-def _clamp_settings(device: Device, notes: list[str]) -> Device:
+def _clamp_settings(device: Device, notes: Notes) -> Device:
     settings = dict(device.settings)
     for name, limits in DEVICES.get(device.kind, {}).items():
         value = settings.get(name)
@@ -141,16 +169,12 @@ def _clamp_settings(device: Device, notes: list[str]) -> Device:
             continue
         settings[name] = near = limits.clamp(value)
         if near != value:
-            notes.append(_note(device.id, name, near, value))
+            notes.append(ClampedValue(device.id, name, near, value))
     low, high = settings.get("min"), settings.get("max")
     if isinstance(low, int | float) and isinstance(high, int | float) and low > high > 0:
         settings["min"], settings["max"] = high, low
         notes.append(f"`{device.id}`: `min` is {high:g} and `max` {low:g} here")
     return replace(device, settings=settings)
-
-
-def _note(id: str, name: str, near: Any, value: Any) -> str:
-    return f"`{id}`: `{name}` {_format(value)} cannot be simulated, {_format(near)} can"
 
 
 def _format(value: Any) -> str:

@@ -29,8 +29,8 @@ from robocomp_dsl.hardware.servants.serving import DevicePort, serve
 from robocomp_dsl.runtime import ServedPort
 from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.simulation.devices.skin_stream import SkinStream
+from robocomp_dsl.simulation.scene import scene_devices
 from robocomp_dsl.simulation.scene.found_files import with_found_files
-from robocomp_dsl.simulation.scene.scene_devices import build_devices, unmoved
 from robocomp_dsl.simulation.scene.scene_joints import JointBoard
 from robocomp_dsl.simulation.scene.scene_skins import build_skins
 from robocomp_dsl.simulation.scene.scene_spec import build_spec
@@ -187,7 +187,7 @@ class Simulation:
     def rebuild(self, scene: Scene, forget: Collection[str] = ()) -> None:
         """Switch to another scene; parts in both keep their state. Raises `SceneError`."""
         require_limits(scene)
-        existing = unmoved(self.state.scene, scene, self.state.devices)
+        existing = scene_devices.unmoved(self.state.scene, scene, self.state.devices)
         state = self._build(scene, existing, self.world, forget)
         self.revision += 1
         failure = self.failure
@@ -204,9 +204,11 @@ class Simulation:
         try:
             scene, clamped = clamp_scene(scene)
             spec, notes = build_spec(scene)
+            if before is None:  # a change at run time must not make one
+                scene = scene_devices.without_blind_sensors(scene, spec, notes)
             self.notes = clamped + notes
             spec.option.timestep = self.options.step
-            parts = build_devices(scene, self.noise, existing)
+            parts = scene_devices.build_devices(scene, self.noise, existing)
             parts |= build_skins(scene, self.noise, self._skin_settings, existing)
             unique = dict.fromkeys(parts.values())
             world = World(

@@ -1,6 +1,6 @@
 """The taxels that no receptive field contains: touches there move nothing.
 
-In: a description. Out: a finding for each limb with such taxels, with their share.
+In: a description. Out: a finding for each limb with many such taxels, with their share.
 """
 
 from __future__ import annotations
@@ -11,6 +11,9 @@ from robocomp_dsl.finding import Finding
 from robocomp_dsl.tactile.arrays import Bools
 from robocomp_dsl.tactile.description.model import GenericPart, Limb, RobotDescription
 from robocomp_dsl.tactile.errors import Fault
+
+MAX_UNANSWERED = 0.1
+"""The share of the taxels of a limb that may be between its fields."""
 
 
 def unanswered_taxels(robot: RobotDescription) -> list[Finding]:
@@ -39,9 +42,9 @@ def covered(limb: Limb, part: GenericPart) -> Bools:
 def _find(limb: Limb, part: GenericPart) -> Finding | None:
     inside = covered(limb, part)
     count = int((~inside).sum())
-    if not count:
+    share = count / max(len(inside), 1)
+    if share <= MAX_UNANSWERED:
         return None
-    share = count / len(inside)
     message = (
         f"{count} of {len(inside)} taxels of `{limb.name}` ({share:.0%}) are in no field:"
         " touches there move nothing"

@@ -13,23 +13,23 @@ from robocomp_dsl.regular_file import read_text
 from robocomp_dsl.runtime.config.data_file import data_file
 from robocomp_dsl.runtime.parameters import ConfigError
 from robocomp_dsl.runtime.parameters.errors import did_you_mean
-from robocomp_dsl.tactile.description.model import GENERIC_ARM, GenericPart, RobotDescription
+from robocomp_dsl.tactile.description.model import GenericPart, RobotDescription
 from robocomp_dsl.tactile.description.part_xml import read_part_xml
 from robocomp_dsl.tactile.description.read import read_robot
 from robocomp_dsl.tactile.errors import DescriptionError
 
 
 def load_arm_part(description: str, part: str, config: Path | None) -> GenericPart:
-    """The arm `part` of the file `description`; see `load_arm`. Raises `ConfigError`."""
+    """The part `part` of the file `description`; see `load_arm`. Raises `ConfigError`."""
     return load_arm(description, part, config)[1]
 
 
 def load_arm(
     description: str, part: str, config: Path | None
 ) -> tuple[RobotDescription, GenericPart]:
-    """The robot of the file `description`, which `data_file` searches for, and its arm `part`.
+    """The robot of the file `description`, which `data_file` searches for, and its part `part`.
 
-    Raises `ConfigError`.
+    The part is an arm, or another one with any number of servos. Raises `ConfigError`.
     """
     file = data_file(description, "description", config)
     source = _read_source(file)
@@ -41,9 +41,9 @@ def load_arm(
     found = next((candidate for candidate in robot.parts if candidate.name == part), None)
     if found is None:
         raise ConfigError([_unknown_part(part, robot, text)])
-    if len(found.servos) != len(GENERIC_ARM):
-        message = f"`{part}` is not an arm: it has {len(found.servos)} servos"
-        raise ConfigError([_part_finding(found, message, f"an arm has {', '.join(GENERIC_ARM)}")])
+    if not any(servo.joint for servo in found.servos):
+        message = f"`{part}` has no servo with a joint"
+        raise ConfigError([_part_finding(found, message, "add one to `servos`")])
     return robot, found
 
 

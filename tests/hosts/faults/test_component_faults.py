@@ -66,6 +66,8 @@ def test_crash_loop_ends_as_failed(app: LoadedApp, since: float, record_property
     with RcdeployRun("status", app.name) as run:
         assert run.wait() == 1
         assert "failed too often: exit code 3" in run.output
+        _, _, last_lines = run.output.partition("faulty failed; the end of its log:\n")
+        assert "about to crash" in last_lines
 
 
 def test_hanging_component_is_restarted(

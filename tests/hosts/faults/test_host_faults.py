@@ -110,6 +110,9 @@ def test_clock_one_hour_off_is_reported(loaded: LoadedApp, record_property: Reco
             assert run.wait() == 0, run.output
             assert "-3600" in run.output
             assert "warning" in run.output
+        with RcdeployRun("up", "--clock-limit", "4000000", loaded.path) as run:
+            assert run.wait() == 0, run.output
+            assert "-3600" not in run.output
         assert loaded.unit_pids() == before
         loaded.first_after("caller", "acknowledged", time.monotonic())
         killed = loaded.kill("ledger")

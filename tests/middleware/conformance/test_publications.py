@@ -198,3 +198,55 @@ def test_topic_has_only_the_operations_without_outputs(network: Network) -> None
     wait_until(lambda: -2 in seen)
     with pytest.raises(rt.NotPublishable, match=r"count of Test::Tags returns something"):
         call["count"]()
+
+
+OLD_NEWS = rt.Interface(
+    "Test::Edition",
+    rt.Operation("said", rt.Pattern.PUBLISH, {"text": rt.String}),
+    rt.Operation("moved", rt.Pattern.PUBLISH, {"x": rt.Double}, units={"x": "m"}),
+    rt.Operation("dropped", rt.Pattern.PUBLISH),
+)
+NEW_NEWS = rt.Interface(
+    "Test::Edition",
+    rt.Operation("added", rt.Pattern.PUBLISH),
+    rt.Operation("moved", rt.Pattern.PUBLISH, {"x": rt.Double}, units={"x": "mm"}),
+    rt.Operation("said", rt.Pattern.PUBLISH, {"text": rt.String}),
+)
+
+
+@pytest.mark.needs("topic_versions")
+@pytest.mark.parametrize(
+    ("published", "subscribed"), [(OLD_NEWS, NEW_NEWS), (NEW_NEWS, OLD_NEWS)], ids=["old", "new"]
+)
+def test_subscriber_with_other_version_gets_operations_that_did_not_change(
+    network: Network,
+    caplog: pytest.LogCaptureFixture,
+    published: rt.Interface,
+    subscribed: rt.Interface,
+) -> None:
+    received: list[object] = []
+    subscriber, publisher = network.node("subscriber"), network.node("publisher")
+    same = network.node("same")
+    handlers = {
+        "said": received.append,
+        "moved": received.append,
+        "dropped": lambda: received.append("dropped"),
+        "added": lambda: received.append("added"),
+    }
+    at = subscriber.at(subscribed, "Edition")
+    subscriber.ports.subscribe(at, handlers, subscriber.execution)
+    own: list[object] = []
+    every = {o.name: lambda *values: own.extend(values) for o in published.operations}
+    same.ports.subscribe(same.at(published, "Edition"), every, same.execution)
+    channel = publisher.ports.advertise(publisher.at(published, "Edition"))
+    call = {operation.name: channel.bind(operation) for operation in published.operations}
+    assert channel.wait(DEADLINE)
+    wait_until(lambda: call["said"]("first") or ("first" in received and "first" in own))
+    assert channel.has_subscribers()
+    call["moved"](1.0)
+    call[published.operations[0].name](*(["zero"] if published is OLD_NEWS else []))
+    call["said"]("last")
+    wait_until(lambda: received[-1] == "last" and own[-1] == "last")
+    assert set(received) <= {"first", "zero", "last"}
+    assert 1.0 in own
+    assert "moved: `x` is in" in caplog.text

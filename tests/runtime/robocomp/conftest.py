@@ -11,6 +11,7 @@ import pytest
 
 from robocomp_dsl.runtime.clock import WallClock
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.hook_thread import LifecycleThread
 from robocomp_dsl.runtime.component.lifecycle import Lifecycle
 from robocomp_dsl.runtime.component.statistics import Statistics
 
@@ -24,7 +25,12 @@ class RunningWorker:
         self.worker = worker_class()
         self.handlers = CallbackGroup()
         self.life = Lifecycle(
-            self.worker, period_ms, WallClock(), self.handlers, Statistics(), lambda _: None
+            self.worker,
+            period_ms,
+            WallClock(),
+            LifecycleThread(self.handlers),
+            Statistics(),
+            lambda _: None,
         )
         self.worker.params = SimpleNamespace(values=dict)
         self.worker.clock, self.worker.name = WallClock(), "old"

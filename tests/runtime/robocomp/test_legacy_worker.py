@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
-from robocomp_dsl.runtime.robocomp.qt import QApplication, QtCore, QTimer, Signal
+from robocomp_dsl.runtime.robocomp.qt import QApplication, QtCore, QTimer, Signal, qApp
 from robocomp_dsl.runtime.robocomp.worker import LegacyWorker
 from tests.runtime.robocomp.conftest import DEADLINE_S, RunningWorker
 from tests.support.waiting import wait_until
@@ -239,3 +239,63 @@ def test_set_period_starts_timer(run_worker: Run) -> None:
     running = run_worker(SpecificWorker, period_ms=0)
     wait_until(lambda: running.worker.count > 2)
     assert (running.worker.Period, running.life.period_ms) == (3, 3)
+
+
+def test_own_initialize_is_called_by_old_code_only(run_worker: Run) -> None:
+    calls: list[object] = []
+
+    class SpecificWorker(LegacyWorker):
+        def __init__(self, proxy_map: object, configData: object) -> None:
+            super().__init__(proxy_map, configData)
+            calls.append(self.initialize())
+            calls.append(self.configData)
+
+        def initialize(self) -> bool:  # type: ignore[override]
+            return True
+
+    running = run_worker(SpecificWorker)
+    wait_until(lambda: running.life.state.value == "compute")
+    assert calls == [True, {}]
+
+
+def test_worker_without_init_has_hook(run_worker: Run) -> None:
+    calls: list[str] = []
+
+    class SpecificWorker(LegacyWorker):
+        def initialize(self) -> None:
+            calls.append("initialize")
+
+    run_worker(SpecificWorker)
+    wait_until(lambda: calls)
+    assert calls == ["initialize"]
+
+
+def test_application_emits_about_to_quit(run_worker: Run) -> None:
+    calls: list[str] = []
+
+    class SpecificWorker(LegacyWorker):
+        def __init__(self, proxy_map: object) -> None:
+            super().__init__(proxy_map)
+            QApplication.instance().aboutToQuit.connect(lambda: calls.append("saved"))
+            QTimer.singleShot(1, qApp.quit)
+
+    running = run_worker(SpecificWorker)
+    wait_until(lambda: calls)
+    assert running.stop()
+
+
+def test_process_events_calls_due_slots(run_worker: Run) -> None:
+    calls: list[str] = []
+
+    class SpecificWorker(LegacyWorker):
+        def compute(self) -> None:
+            QTimer.singleShot(0, lambda: calls.append("slot"))
+            while not calls:
+                QApplication.processEvents()
+            calls.append("compute")
+            self.quit()
+
+    running = run_worker(SpecificWorker)
+    wait_until(lambda: "compute" in calls)
+    assert running.stop()
+    assert calls[:2] == ["slot", "compute"]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.simulation.served_worlds import Served, rcgen, served_model
+from tests.simulation.served_worlds import Served, rcgen, served, served_model
 
 ROBOT = """\
 <mujoco>
@@ -87,3 +87,15 @@ def test_range_finder_servant_lists_sensors(tmp_path: Path) -> None:
     assert ["front", "model_range", "Ultrasound", "Ultrasound"] in rows
     assert ["sensor2", "model_range", "Ultrasound", "Ultrasound"] in rows
     assert ["grid", "manyranges", "-", "-"] in rows
+
+
+@pytest.mark.parametrize("wrapped", [True, False], ids=["world", "root"])
+def test_range_finders_of_the_room_see_the_room(tmp_path: Path, wrapped: bool) -> None:
+    """Fixed in the room itself: its walls are not part of a robot that carries them."""
+    inside = """<laser id="laser" measures="3" max="5000" angle="0.1"/>
+      <ultrasound id="sonar" max="5000"/>
+      <plane id="wall" nz="-1" pz="2025" size="3000,3000,50"/>"""
+    text = f'<transform id="world">{inside}</transform>' if wrapped else inside
+    world = served(tmp_path, f"<innerModel>{text}</innerModel>")
+    assert world.ports["laser"].getLaserData()[1].dist == pytest.approx(2000, abs=1)
+    assert world.ports["Ultrasound"].getSensorDistance("sonar") == pytest.approx(2000, abs=1)

@@ -139,7 +139,7 @@ def test_clamp_scene_keeps_model_file() -> None:
     clamped, notes = clamp_scene(scene)
     assert clamped.model == scene.model
     assert clamped.frames[1].place == (1e9, 0, 0)
-    assert notes == ["`a`: `place` 1e+12, 0, 0 cannot be simulated, 1e+09, 0, 0 can"]
+    assert notes == ["`a`: `place` is 1e+09, 0, 0 here, 1e+12, 0, 0 cannot be simulated"]
 
 
 def test_camera_sees_body_that_was_placed(tmp_path: Path) -> None:

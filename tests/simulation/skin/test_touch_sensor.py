@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 
-from robocomp_dsl.hardware.devices.errors import SceneError
 from tests.simulation.served_worlds import Served, rcgen, served
 
 TABLE = """\
@@ -77,12 +76,16 @@ def test_touch_sensor_keeps_its_last_shape(
     assert set(read()) == {"scale", "under"}
 
 
-def test_touch_sensor_with_unreadable_mesh_is_not_built(tmp_path: Path) -> None:
-    """A mesh that cannot be read becomes a marker that touches nothing."""
-    text = """<innerModel><touchsensor id="bump" type="bumper">
-      <mesh id="pad" file="gone.obj" collide="1"/></touchsensor></innerModel>"""
-    with pytest.raises(SceneError, match=r"`bump` would never feel anything.*cannot be read"):
-        served(tmp_path, text)
+def test_touch_sensor_with_unreadable_mesh_is_left_out(tmp_path: Path) -> None:
+    """A mesh that cannot be read becomes a marker that touches nothing; the rest is simulated."""
+    mesh = '<mesh id="pad" file="gone.obj" collide="1"/>'
+    text = TABLE.replace('<plane id="side" size="100,100,100" collide="1"/>', mesh)
+    world = served(tmp_path, text)
+    assert set(world.ports["TouchSensor"].getValues()) == {"scale", "under"}
+    assert "`foot` is left out: no shape in it collides" in world.simulation.notes
+    world.simulation.advance(0.1)
+    world.ports["Simulation"].reset()
+    assert set(world.ports["TouchSensor"].getValues()) == {"scale", "under"}
 
 
 def test_touch_sensor_without_shape_is_left_out_of_simulator(tmp_path: Path) -> None:

@@ -125,11 +125,12 @@ def known_properties(driver: DriverComponent) -> dict[str, object]:
     """The static properties of the simulated device, such as its limits."""
     from robocomp_dsl.generate.simulator.simulator import world_files  # noqa: PLC0415 - late
     from robocomp_dsl.generate.write import write  # noqa: PLC0415
+    from robocomp_dsl.hardware.description.scene import Scene  # noqa: PLC0415
     from robocomp_dsl.simulation.world.simulation import Simulation  # noqa: PLC0415 - MuJoCo
 
     with tempfile.TemporaryDirectory() as folder:
         write(Path(folder), world_files(driver.simulator, "world"))
-        simulation = Simulation.read(Path(folder, "world", "scene.json"))
+        simulation = Simulation(Scene.of_data(driver.simulator.scene, Path(folder, "world")))
     device = simulation.devices[driver.ids[0]]
     if driver.motors:
         return {"spec": device.board.spec.part(driver.ids)}

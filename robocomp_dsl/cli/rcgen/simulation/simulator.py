@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import click
 
+from robocomp_dsl.check.codes import model_files as model_codes
 from robocomp_dsl.check.passes import check_cdsl, check_innermodel
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcgen.simulation.recovery_summary import summarise_recovery
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate import codes, codes_model
+from robocomp_dsl.generate import codes
 from robocomp_dsl.hardware.description.model_kind import MODELS, root_tag
 from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.source import Source, Span
@@ -224,7 +225,7 @@ def _build(simulator_: Simulator, body: InnerModel, report: Report) -> None:
     for note in simulation.notes:
         report.add(codes.SIMPLIFIED_WORLD, place(note), note)
     for overlap in simulation.overlaps():
-        report.add(codes_model.MODEL_OVERLAP, place(overlap.message), overlap.message)
+        report.add(model_codes.MODEL_OVERLAP, place(overlap.message), overlap.message)
 
 
 def simulator_files(

@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from robocomp_dsl.cli.rcgen.simulation.model_findings import (
+from robocomp_dsl.check.model_file.model_findings import (
     read_source,
     report_error,
     report_findings,

@@ -10,17 +10,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from robocomp_dsl.check.passes import check_innermodel
-from robocomp_dsl.check.workspace.workspace import Workspace
-from robocomp_dsl.cli.rcgen.simulation.model_findings import (
+from robocomp_dsl.check.codes import model_files as codes
+from robocomp_dsl.check.model_file.model_findings import (
     code_of,
     read_source,
     report_error,
     report_findings,
 )
+from robocomp_dsl.check.passes import check_innermodel
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.finding import Finding
-from robocomp_dsl.generate import codes_model as codes
 from robocomp_dsl.generate.scene.scene import lower_body
 from robocomp_dsl.generate.scene.scene_files import resolve_files
 from robocomp_dsl.hardware.description.findings import ModelFileError

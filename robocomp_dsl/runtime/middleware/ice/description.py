@@ -6,6 +6,7 @@ MIDDLEWARE = MiddlewareDescription(
     name="ice",
     summary="ZeroC Ice 3.7: programs written with Ice, such as RoboComp's C++ components",
     capabilities=Capabilities(
+        topic_versions=True,
         between_hosts=True,
         external_peers=True,
         fixed_address=True,

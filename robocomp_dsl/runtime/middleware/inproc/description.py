@@ -6,6 +6,7 @@ MIDDLEWARE = MiddlewareDescription(
     name="inproc",
     summary="direct calls between components of one process",
     capabilities=Capabilities(
+        topic_versions=True,
         between_processes=False,
         attaches_subscribers=True,
         reports_source=True,

@@ -11,6 +11,7 @@ MIDDLEWARE = MiddlewareDescription(
     name="local",
     summary="fast, on one machine: unix sockets, and shared memory for large messages",
     capabilities=Capabilities(
+        topic_versions=True,
         attaches_subscribers=True,
         sequence_numbers=True,
         qos=frozenset({"reliable", "keep_all", "latched"}),

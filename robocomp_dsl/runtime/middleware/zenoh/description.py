@@ -6,6 +6,7 @@ MIDDLEWARE = MiddlewareDescription(
     name="zenoh",
     summary="the default: components in any processes, also on several hosts",
     capabilities=Capabilities(
+        topic_versions=True,
         between_hosts=True,
         sequence_numbers=True,
         reports_source=True,

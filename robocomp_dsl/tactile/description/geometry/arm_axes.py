@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import combinations
 
 import numpy as np
 
@@ -128,9 +128,11 @@ def _find_servo_fault(
 
 
 def _order_fault(part: GenericPart, model: PosedModel) -> ServoFault | None:
-    """A joint that is nearer to the hand than the joint of the next generic index."""
+    """A joint of the shoulder or elbow that does not carry a later one; shoulders differ inside."""
     present = [index for index, servo in enumerate(part.servos) if servo.joint]
-    for index, following in pairwise(present):
+    for index, following in combinations(present, 2):
+        if following < ELBOW:
+            continue
         joint, carried = part.servos[index].joint, part.servos[following].joint
         if joint in model.joints_above(model.body_of(carried)):
             continue

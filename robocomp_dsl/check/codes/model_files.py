@@ -45,3 +45,28 @@ When the simulation starts, they push each other apart, often violently. Move th
 start positions of the joints, or exclude the pair from collisions (in InnerModel: `collide="0"`).
 """,
 )
+
+MODEL_UNLIKELY = Code(
+    "RC893",
+    Severity.WARNING,
+    "a value of the model is unlikely",
+    """\
+The model can be simulated, but a value is probably in another unit, or missing: ranges of joints
+in degrees where radians are expected or the reverse, lengths in mm, masses in g, moments of
+inertia that do not fit the mass, joints without a name, joints of a URDF without `effort` or
+`velocity`, and key frames beyond the limits of joints.
+
+Wrong, because MJCF reads angles in degrees:
+
+    <mujoco>
+      <worldbody><body name="arm"><joint name="elbow" range="-1.5 1.5"/> … </body></worldbody>
+    </mujoco>
+
+Right:
+
+    <mujoco>
+      <compiler angle="radian"/>
+      <worldbody><body name="arm"><joint name="elbow" range="-1.5 1.5"/> … </body></worldbody>
+    </mujoco>
+""",
+)

@@ -9,9 +9,9 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from robocomp_dsl.check.codes import model_files as codes
 from robocomp_dsl.diagnostics import Code, Report
 from robocomp_dsl.finding import Finding
-from robocomp_dsl.generate import codes_model as codes
 from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.source import Source, Span, UnreadableSource
 
@@ -44,12 +44,14 @@ def report_findings(findings: Iterable[Finding], source: Source, report: Report)
 
 def code_of(finding: Finding) -> Code:
     """The code of a finding."""
+    if finding.kind in ("unlikely", "range"):
+        return codes.MODEL_UNLIKELY
     return codes.MODEL_OVERLAP if finding.kind == "overlap" else codes.MODEL_SIMPLIFIED
 
 
 def _named(source: Source, finding: Finding) -> Span:
     """The tag of a finding's subject."""
-    tags = "joint" if finding.kind == "joint" else "link|body"
+    tags = "joint" if finding.kind in ("joint", "range") else "link|body"
     tag = rf"<(?:{tags})\b[^<>]*\bname\s*=\s*([\"']){re.escape(finding.subject)}\1"
     found = re.search(tag, source.text) if finding.subject else None
     return source.span(*found.span()) if found else source.file_span

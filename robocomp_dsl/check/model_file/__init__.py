@@ -1,0 +1,1 @@
+"""Model files in URDF and MJCF, checked by themselves."""
