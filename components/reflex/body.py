@@ -7,6 +7,7 @@ model is loaded by MuJoCo, only if the description names one.
 from __future__ import annotations
 
 from robocomp_dsl.finding import Finding
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.runtime.parameters import ConfigError
 from robocomp_dsl.tactile.arm.limb_kinematics import LimbKinematics
 from robocomp_dsl.tactile.description.model import RobotDescription
@@ -16,13 +17,16 @@ from robocomp_dsl.tactile.reflex.withdrawal_laws import FixedLaw, PoseLaw, Withd
 
 
 def load_kinematics(robot: RobotDescription, part: str) -> LimbKinematics | None:
-    """The model of the description; None if it names none. Raises `ConfigError`."""
+    """The model of the description; None if it names no MJCF or URDF file. Raises `ConfigError`."""
     if robot.model_file is None:
         return None
     from robocomp_dsl.hardware.description.findings import ModelFileError  # noqa: PLC0415
+    from robocomp_dsl.hardware.description.model_kind import root_tag  # noqa: PLC0415
     from robocomp_dsl.simulation.models.body_model import BodyModel  # noqa: PLC0415 - slow
 
     try:
+        if root_tag(read_bytes(robot.model_file)) == "innermodel":
+            return None
         return BodyModel.load(robot, part)
     except (ModelFileError, OSError, KeyError) as error:
         why = getattr(error, "strerror", None) or str(error)

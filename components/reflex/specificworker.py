@@ -45,7 +45,7 @@ class SpecificWorker(HealthMonitor):
         kinematics = load_kinematics(robot, part.name)
         self.body = RobotBody(kinematics, self.params.law, self.params.clearance)
         if kinematics is None and self.params.law == "pose":
-            self.log.warning("the description has no `model`: the law is `fixed`")
+            self.log.warning("the description has no `model` in MJCF or URDF: the law is `fixed`")
         self.obstacle, self.reported = ObstacleMonitor(), (-inf, "")
         self.pose = self.goal = np.zeros(self.size)
         self.touched = self.since = -inf
