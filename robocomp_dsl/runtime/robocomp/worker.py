@@ -48,7 +48,7 @@ class LegacyWorker(Component):
     kill: Any
     destroyed: Any
     Period: int
-    defaultMachine: DefaultMachine  # noqa: N815
+    defaultMachine: DefaultMachine
     t_initialize_to_compute: MachineSignal
     t_compute_to_compute: MachineSignal
     t_compute_to_finalize: MachineSignal
