@@ -54,7 +54,8 @@ campaign-hosts: $(READY)
 highlight: $(READY)
 	$(BIN)/python -m editors.highlight
 
-# Install the programs that tests use besides Python: editors, the Slice compiler, systemd, and what Qt needs.
+# Install the programs that tests use besides Python: editors, the Slice compiler, systemd, libraries
+# of Qt.
 test-tools: $(READY)
 	tests/hosts/install.sh
 	editors/install-test-tools.sh $(CURDIR)/$(BIN)/python

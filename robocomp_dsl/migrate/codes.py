@@ -12,9 +12,8 @@ UNREADABLE_FILE = Code(
     "RC921",
     Severity.ERROR,
     "a file of the old component could not be read",
-    """The file is binary, too large, or not in the format that its name says (a TOML
-configuration with a syntax error, a manager file that is not XML). Everything else was migrated.
-Fix the file in the old folder, remove the new folder and run `rcgen migrate` again.""",
+    """The file is binary, too large, or not in the format that its name says. Everything else was
+migrated. Fix the file in the old folder, remove the new folder and run `rcgen migrate` again.""",
 )
 
 NO_DESCRIPTION = Code(
@@ -195,11 +194,10 @@ NEEDS_QT_OR_ICE = Code(
     "RC955",
     Severity.ERROR,
     "the worker uses Qt or Ice itself",
-    """Qt windows and timers need Qt's event loop, which the new component does not run: the
-lifecycle calls `compute`. Proxies that code creates with `Ice.initialize` reach only old
-components. Such an import is unchanged, so the component starts only if Qt or Ice is installed.
-Move the window to a separate program that communicates with the component, move periodic calls to
-`compute`, and use the proxies of `self`.""",
+    """`legacy.py` has timers, signals, locks and the application of Qt, and the exceptions of Ice;
+the code uses more. Proxies that it creates with `Ice.initialize` reach only old components. The
+import is unchanged, so the component starts only if Qt or Ice is installed. A component with a
+window needs `gui Qt(QWidget);` in its CDSL file. Use the proxies of `self`.""",
 )
 
 NAME_TAKEN = Code(
@@ -215,7 +213,7 @@ PERIOD_MIGRATED = Code(
     Severity.NOTE,
     "the period was moved to the description",
     """`self.Period = 50` or `Period.Compute = 50` became `period 50;` in the CDSL file.
-`compute` is called with this period; `self.timer` is a stand-in that does nothing.""",
+`self.timer.start(self.Period)` of the worker sets it, too.""",
 )
 
 UNKNOWN_STATE_METHOD = Code(
@@ -231,8 +229,8 @@ LEGACY_STATE_METHOD = Code(
     Severity.NOTE,
     "a state method is called by `legacy.py`",
     """RoboComp called `sm_search` on entry to the state `search`, and code sent an event with
-`self.t_search_to_found.emit()`. `legacy.py` still does both; the event is sent in the next
-period. To remove `legacy.py`, rename the method to `on_enter_search` and send the event yourself:
+`self.t_search_to_found.emit()`. `legacy.py` still does both. To remove it, rename the
+method to `on_enter_search` and send the event yourself:
 
     self.machine.send("t_search_to_found")""",
 )
@@ -249,8 +247,7 @@ GENERATED_FILE_DROPPED = Code(
     "RC962",
     Severity.NOTE,
     "a file that RoboComp generated has no replacement",
-    """Build files and generated code are no longer needed: `rcgen component` writes `main.py`
-and the package of generated code.""",
+    """Build files and generated code are not needed: `rcgen component` writes generated code.""",
 )
 
 QT_WINDOW = Code(

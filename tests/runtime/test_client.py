@@ -17,6 +17,7 @@ from robocomp_dsl.client import (
 from robocomp_dsl.runtime import Component, ComponentSpec
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.component_interface import COMPONENT, ComponentInfo
+from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import CalledPort
@@ -123,11 +124,14 @@ def test_domain_client_reports_absent_component(client: DomainClient) -> None:
 def test_component_of_older_version_answers_as_before(
     client: DomainClient, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """It serves the interface `Component` with the same type hash, and no schema."""
+    """It serves `Component` with a hash that does not cover units, no shapes, and no schema."""
     monkeypatch.setattr("robocomp_dsl.runtime.client._SCHEMA_TIMEOUT_S", 0.01)
-    assert COMPONENT.hash.hex() == COMPONENT_HASH
+    assert COMPONENT.hash_without_units.hex() == COMPONENT_HASH
+    older = Interface(COMPONENT.name, *COMPONENT.operations)
+    older.__dict__["hash"] = bytes.fromhex(COMPONENT_HASH)
+    monkeypatch.setattr(client._middleware.presence, "offer_shapes", lambda _: None)
     handlers = {operation.name: ComponentInfo for operation in COMPONENT.operations}
-    at = Endpoint(COMPONENT, "older", "Component")
+    at = Endpoint(older, "older", "Component")
     client._middleware.serve(at, handlers, CallbackGroup())
     assert client.component("older").getInfo() == ComponentInfo()
     with pytest.raises(SchemaError, match="older version of robocomp_dsl; update it"):

@@ -126,7 +126,9 @@ def test_reflex_response_is_unchanged_by_touch_elsewhere_on_limb(system: Shipped
 
 
 def test_reflex_ignores_finger_outside_fields(system: ShippedSystem) -> None:
-    """With the fields that ship: nobody watches the back of the upper arm."""
+    """With a field in front of the upper arm only: nobody watches its back."""
+    fields = system.reflex.getFields()
+    system.reflex.setFields([field for field in fields if field.name == FRONT])
     count, start = system.reflex.getStatistics().withdrawals, system.arm.getState().position
     front = system.field(FRONT)
     back = Field("back", front.limb, front.centre * (1.0, -1.0, -1.0), 0.01, front.motion)
@@ -140,6 +142,7 @@ def test_reflex_ignores_finger_outside_fields(system: ShippedSystem) -> None:
     assert felt[-1] > 0.1  # it still presses
     assert system.reflex.getStatistics().withdrawals == count
     assert system.arm.getState().position == pytest.approx(start, abs=0.05)
+    system.reflex.setFields(fields)
 
 
 def test_reflex_withdraws_by_both_fields_from_two_fingers(system: ShippedSystem) -> None:

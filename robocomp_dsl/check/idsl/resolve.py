@@ -201,7 +201,9 @@ class _Resolver:
     ) -> types.Literal | None:
         if tree is None:
             return None
-        written = field.type.text if field and not field.string_bound else type_.name
+        written = type_.name
+        if field and not field.string_bound and self._tree.origin in ("", "ros"):
+            written = field.type.text
         try:
             return as_type(tree, type_)
         except TypeMismatch as wrong:

@@ -5,6 +5,7 @@ In: a name. Out: the declaration, or None and a diagnostic (unless one was repor
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import TypeVar
 
@@ -17,6 +18,7 @@ from robocomp_dsl.model import types
 from robocomp_dsl.model.interface import Interface
 from robocomp_dsl.syntax.ast.base import QualifiedName
 
+_NEXT_WORD = re.compile(r"([ \t]+)(\w+)", re.ASCII)
 Kind = TypeVar("Kind", bound=types.Declaration)
 Own = Callable[[QualifiedName], types.Declaration | None]
 
@@ -149,6 +151,8 @@ class TypeResolver:
         if name.text == "void":
             self._report.add(codes.NOT_A_TYPE, name.span, "`void` is only allowed as return type")
             return
+        if self._report_swapped(name):
+            return
         guess = self._guess(name)
         if self._visible.is_follow_on_error(name, guess):
             return
@@ -172,6 +176,23 @@ class TypeResolver:
             fix=fix,
         )
 
+    def _report_swapped(self, name: QualifiedName) -> bool:
+        """Report `count int`, where the name precedes a built-in type; whether it does."""
+        text = name.span.source.text
+        following = _NEXT_WORD.match(text, name.span.end)
+        if name.module is not None or not following or following[2] not in types.PRIMITIVES:
+            return False
+        right = f"{following[2]}{following[1]}{name.text}"
+        span = name.span.source.span(name.span.start, following.end())
+        self._report.add(
+            codes.UNKNOWN_TYPE,
+            name.span,
+            f"unknown type `{name.text}`",
+            label=f"the type precedes the name: `{' '.join(right.split())}`",
+            fix=replace_fix(span, right),
+        )
+        return True
+
     def _guess(self, name: QualifiedName) -> str | None:
         """The closest known name, cached per name; None after `MAX_SUGGESTIONS` names."""
         if name.text not in self._guesses:
@@ -187,7 +208,10 @@ class TypeResolver:
             if elsewhere in _FOREIGN or (name.module and word in types.PRIMITIVES):
                 return _FOREIGN.get(elsewhere, word)
         if name.module is None:
-            return nearest(word, [*types.PRIMITIVES, *self._own_names, *self._imported()])
+            built_in = (*types.PRIMITIVES, "void")
+            near = nearest(word, [*built_in, *self._own_names, *self._imported()])
+            letters = sorted(word)
+            return near or next((t for t in built_in if sorted(t) == letters), None)
         module = name.module.text
         moved = [d for d in self._visible.declarations(types.Declaration) if d.name == word]
         if len(moved) == 1:

@@ -10,8 +10,9 @@ from dataclasses import dataclass, field
 
 from robocomp_dsl.check.codes import states as codes
 from robocomp_dsl.check.names.duplicates import report_duplicate
+from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.check.workspace.source_cache import Parsed
-from robocomp_dsl.diagnostics import Edit, Fix, Note, Report, did_you_mean, nearest
+from robocomp_dsl.diagnostics import Edit, Fix, Note, Report, nearest
 from robocomp_dsl.model.statemachine import State, StateMachine, Transition
 from robocomp_dsl.syntax.ast import smdsl as ast
 from robocomp_dsl.syntax.ast.base import Name
@@ -180,16 +181,17 @@ def _resolve_state(
 def _report_unknown(
     name: Name, known: Mapping[str, object], report: Report, tree: ast.Block | None = None
 ) -> None:
-    """Report an unknown state; without a similar name the fix adds it to the states of `tree`."""
-    guess = did_you_mean(name.text, known)
+    """Report an unknown state; the fix is a similar name, or adds it to the states of `tree`."""
+    guess = nearest(name.text, known)
     missing = tree is not None and not guess
+    fix = _list_state_fix(name, tree.states) if tree is not None and missing else None
     report.add(
         codes.UNKNOWN_STATE,
         name.span,
         f"unknown state `{name.text}`",
-        label=guess,
+        label=f"did you mean `{guess}`?" if guess else "",
         help="list it under `states`" if missing else "",
-        fix=_list_state_fix(name, tree.states) if tree is not None and missing else None,
+        fix=replace_fix(name.span, guess) if guess else fix,
     )
 
 

@@ -7,6 +7,7 @@ Reads folders only to see what exists.
 from __future__ import annotations
 
 import os
+import re
 import shlex
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ from pathlib import Path
 from robocomp_dsl.model.deployment import Connection, Instance
 
 _LONGEST_PATH = 4096
+_REFERENCE = re.compile(r"(?:^model|\bfile)\s*:\s*[\"']?([^\s\"',{}#]+)", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +69,9 @@ class NamedFileFinder:
         """
         files = [NamedFile(place_of(config), str(config))] if config else []
         files += [NamedFile(place_of(folder / path), str(path)) for path in instance.files]
-        files += [NamedFile(place_of(path), str(path)) for path in instance.setting_paths]
+        for path in instance.setting_paths:
+            files.append(NamedFile(place_of(path), str(path)))
+            files += _referenced_files(path)
         files += self._monitors.get(instance.full_name, ())
         key = (instance.executable, folder)
         if key not in self._programs:
@@ -96,6 +100,19 @@ def _program_files(executable: str, folder: Path) -> Iterator[NamedFile]:
         is_absolute = Path(word).is_absolute()
         if path.is_file() and (not is_absolute or path.is_relative_to(folder)):
             yield NamedFile(place_of(path), word if is_absolute else "")
+
+
+def _referenced_files(path: Path) -> Iterator[NamedFile]:
+    """The model and the taxel positions that a tactile description names, relative to it."""
+    if path.suffix.lower() not in (".yaml", ".yml"):
+        return
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return
+    for name in _REFERENCE.findall(text):
+        if _exists(path.parent / name, folders=False):
+            yield NamedFile(place_of(path.parent / name), required=False)
 
 
 def _texts(instance: Instance) -> Iterator[str]:

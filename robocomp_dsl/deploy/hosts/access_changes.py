@@ -7,10 +7,8 @@ are listed on each host; the next `rcdeploy up` that writes the settings grants 
 
 from __future__ import annotations
 
-import asyncio
 import json
 import re
-import time
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -25,6 +23,7 @@ from robocomp_dsl.deploy.hosts.host_engine import run_async
 from robocomp_dsl.deploy.hosts.host_network import PRIVATE
 from robocomp_dsl.deploy.hosts.registry import HostedDeployment
 from robocomp_dsl.deploy.hosts.rollout import raise_failures
+from robocomp_dsl.deploy.hosts.router_reload import reload_router
 from robocomp_dsl.deploy.network.access_rules import access_rules
 from robocomp_dsl.deploy.network.identities import router_name
 from robocomp_dsl.deploy.network.port_uses import AddedConnection
@@ -35,9 +34,6 @@ from robocomp_dsl.model.deployment import THIS_MACHINE, UNPLACED, Deployment, Ho
 
 GRANTED = "granted.json"
 """The connections that were granted at run time, beside the settings of the router."""
-RELOAD_TIMEOUT_S = 30.0
-_POLL_S = 0.05
-_RELOADED = "uses new settings"
 _SETTINGS = re.compile(r"router-[0-9a-f]+\.json")
 
 
@@ -117,18 +113,13 @@ async def _grant(
             file = files[agent.host.name]
             await _write_json(agent, f"{_private(entry.name)}/{GRANTED}", listed)
             await _write_json(agent, file.path, {**file.data, "access": access})
-            before = await _last_reload(agent)
-            # It copies the settings of its version to the file that the router reads.
-            await agent.systemctl("reload", [names.router_name(entry.name)])
-            deadline = time.monotonic() + RELOAD_TIMEOUT_S
-            while await _last_reload(agent) == before:
-                if time.monotonic() > deadline:
-                    text = f"{agent.host.name}: the router has not read its settings"
-                    raise HostError(f"{text} within {RELOAD_TIMEOUT_S:g} s")
-                await asyncio.sleep(_POLL_S)
 
         await fleet.each(write)
         raise_failures(fleet)
+        for agent in fleet.agents.values():
+            # It copies the settings of its version to the file that the router reads.
+            unit = names.router_name(entry.name)
+            await reload_router(agent, unit, router_name(agent.host))
     return True
 
 
@@ -148,12 +139,6 @@ async def _read(agent: HostAgent, deployment: str) -> _RouterFile:
     except (ValueError, TypeError, KeyError):
         text = f"{agent.host.name}: {path} is missing or damaged"
         raise HostError(text, "run `rcdeploy up` again") from None
-
-
-async def _last_reload(agent: HostAgent) -> str:
-    """The line of the router's log that says when it read its settings again; "" without."""
-    log = await agent.tail(router_name(agent.host))
-    return next((line for line in reversed(log.splitlines()) if _RELOADED in line), "")
 
 
 async def _write_json(agent: HostAgent, path: str, data: object) -> None:

@@ -29,6 +29,7 @@ from robocomp_dsl.deploy.hosts.fleet import Fleet
 from robocomp_dsl.deploy.hosts.host_agent import HostAgent
 from robocomp_dsl.deploy.hosts.host_report import HostReport
 from robocomp_dsl.deploy.hosts.manifest import HostedComponent, HostManifest
+from robocomp_dsl.deploy.hosts.router_reload import reload_router
 from robocomp_dsl.deploy.hosts.unit_runner import UnitRunner
 from robocomp_dsl.deploy.units import names
 
@@ -229,7 +230,8 @@ async def _reload(
         units = {component.name: component.unit for component in deployed}
         for change in each.components:
             if change.verb == RELOAD:
-                await fleet.agents[each.host].systemctl("reload", [units[change.component]])
+                agent, router = fleet.agents[each.host], change.component
+                await reload_router(agent, units[router], router)
                 report(f"{change.component} ({each.host}): reloaded")
 
 

@@ -7,6 +7,7 @@ on first use.
 from __future__ import annotations
 
 import enum
+import re
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import Any
@@ -20,6 +21,8 @@ from robocomp_dsl.runtime.codec.codec import (
 from robocomp_dsl.runtime.data.schema import Declared, fields_of
 from robocomp_dsl.runtime.data.type_hash import interface_hash, operation_shape
 from robocomp_dsl.runtime.errors import DeclaredError
+
+_UNIT = re.compile(r"\[[^\]]*\]")
 
 
 class Pattern(enum.StrEnum):
@@ -141,6 +144,11 @@ class Interface:
     def shapes(self) -> dict[str, str]:
         """The shape of each operation by name, in the order of `operations`."""
         return {operation.name: operation.shape for operation in self.operations}
+
+    @cached_property
+    def hash_without_units(self) -> bytes:
+        """The hash in components of earlier versions of this project, which did not cover units."""
+        return interface_hash(self.name, (_UNIT.sub("", o.shape) for o in self.operations))
 
     @cached_property
     def _by_name(self) -> dict[str, Operation]:

@@ -7,7 +7,8 @@ interface to connect with, which transports use as any other; or why an operatio
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import TypeAlias
 
 from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
@@ -15,12 +16,24 @@ from robocomp_dsl.runtime.data.shape_difference import describe_difference
 from robocomp_dsl.runtime.errors import InterfaceMismatch
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
+ShapesOf: TypeAlias = Callable[[PortRecord], dict[str, str] | None]
 log = logging.getLogger("robocomp")
 
 
 def is_other_version(at: Endpoint, peer: PortRecord) -> bool:
     """Whether a component has another version of the interface; other programs have none."""
     return bool(peer.hash) and peer.hash != at.interface.hash.hex()
+
+
+def shapes_of_peer(at: Endpoint, peer: PortRecord, ask: ShapesOf) -> dict[str, str] | None:
+    """The shapes of a peer's operations; None if it does not tell them.
+
+    A component of an earlier version of this project does not; its hash does not cover units.
+    """
+    shapes = ask(peer)
+    if shapes is None and peer.hash == at.interface.hash_without_units.hex():
+        return at.interface.shapes
+    return shapes
 
 
 class PeerInterface(Interface):

@@ -18,8 +18,10 @@ from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.interface_version import (
     PeerInterface,
+    ShapesOf,
     is_other_version,
     mismatch,
+    shapes_of_peer,
 )
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.connection.server_selector import ServerSelector
@@ -29,7 +31,6 @@ from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.port_registry import PortRegistry
 
 Connect: TypeAlias = Callable[[Endpoint, PortRecord, float], ServiceClient]
-ShapesOf: TypeAlias = Callable[[PortRecord], dict[str, str] | None]
 DEFAULT_TIMEOUT_S = 10.0
 LOST_TIMEOUT_S = 0.5
 """The presence reports the end of a server at most so long after its connections broke."""
@@ -201,7 +202,7 @@ class ServiceChannel:
             former.close()
         at, self._version = self._at, None
         if is_other_version(at, server):
-            shapes = self._shapes_of(server)
+            shapes = shapes_of_peer(at, server, self._shapes_of)
             if shapes is None:
                 raise mismatch(at, server, "", "")
             self._version = PeerInterface(at.interface, server, shapes)

@@ -15,14 +15,18 @@ from typing import Any
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.connection.interface_version import PeerInterface, is_other_version
+from robocomp_dsl.runtime.connection.interface_version import (
+    PeerInterface,
+    ShapesOf,
+    is_other_version,
+    shapes_of_peer,
+)
 from robocomp_dsl.runtime.connection.ports import OperationCallable
 from robocomp_dsl.runtime.connection.published_port import PublishedPort
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.sequence_format import SEQUENCE_FORMAT
 
 log = logging.getLogger("robocomp")
-ShapesOf = Callable[[PortRecord], "dict[str, str] | None"]
 OpenPort = Callable[[str, Endpoint], PublishedPort]
 
 
@@ -68,7 +72,7 @@ class TopicVersions:
             self._attach(version, {r for r in others if (r.middleware, r.hash) == key})
 
     def _add(self, key: tuple[str, str], record: PortRecord) -> None:
-        shapes = self._shapes_of(record)
+        shapes = shapes_of_peer(self._at, record, self._shapes_of)
         if shapes is None:
             self._versions[key] = _Version(None, None, set(), {})
             return

@@ -19,7 +19,7 @@ _SHOWN = 60
 
 
 @dataclass(frozen=True, slots=True)
-class Member:
+class ShapeMember:
     """A parameter or field: name, type without unit, unit."""
 
     name: str
@@ -52,7 +52,7 @@ def _differences(here: str, there: str) -> Iterator[str]:
     yield from _throws(own[3], other[3])
 
 
-def _parts(shape: str) -> tuple[str, list[Member], list[Member], list[str]]:
+def _parts(shape: str) -> tuple[str, list[ShapeMember], list[ShapeMember], list[str]]:
     """Pattern, inputs, outputs and exceptions."""
     head = _HEAD.match(shape)
     if head is None:
@@ -87,12 +87,12 @@ def _split(text: str) -> Iterator[str]:
         yield text[start:]
 
 
-def _read_members(text: str) -> list[Member]:
+def _read_members(text: str) -> list[ShapeMember]:
     members = []
     for part in _split(text):
         name, _, type_ = part.partition(":")
         unit = _UNIT.search(type_[_end_of_type(type_) :])
-        members.append(Member(name, type_[: _end_of_type(type_)], unit[1] if unit else ""))
+        members.append(ShapeMember(name, type_[: _end_of_type(type_)], unit[1] if unit else ""))
     return members
 
 
@@ -103,7 +103,9 @@ def _end_of_type(text: str) -> int:
     return _inside(text, end)[1] if text[end : end + 1] in ("{", "<") else end
 
 
-def _members(here: list[Member], there: list[Member], kind: str, inside: str) -> Iterator[str]:
+def _members(
+    here: list[ShapeMember], there: list[ShapeMember], kind: str, inside: str
+) -> Iterator[str]:
     """How lists of parameters or fields differ; `inside` is the path of the struct."""
     what = "" if inside else kind
     where = f" of `{inside}`" if inside else ""
@@ -124,7 +126,7 @@ def _members(here: list[Member], there: list[Member], kind: str, inside: str) ->
         yield from _types(mine, theirs, kind, path)
 
 
-def _types(here: Member, there: Member, kind: str, path: str) -> Iterator[str]:
+def _types(here: ShapeMember, there: ShapeMember, kind: str, path: str) -> Iterator[str]:
     if here.type != there.type:
         words = [_WORD.match(m.type) for m in (here, there)]
         if all(word and word[0] == "struct" for word in words):
@@ -139,7 +141,9 @@ def _types(here: Member, there: Member, kind: str, path: str) -> Iterator[str]:
                 list(_split(_inside(m.type, len("sequence"))[0])) for m in (here, there)
             )
             if mine[1:] == theirs[1:]:
-                yield from _types(Member("", mine[0]), Member("", theirs[0]), kind, f"{path}[]")
+                yield from _types(
+                    ShapeMember("", mine[0]), ShapeMember("", theirs[0]), kind, f"{path}[]"
+                )
         elif all(word and word[0] == "enum" for word in words):
             yield from _enumerators(here.type, there.type, path)
         yield f"`{path}` is `{here.text}` here, but `{there.text}` there"
@@ -169,7 +173,9 @@ def _throws(here: list[str], there: list[str]) -> Iterator[str]:
         if mine is None or theirs is None:
             yield f"it throws {len(here)} exceptions here, but {len(there)} there"
         elif mine != theirs:
-            yield from _types(Member("", mine), Member("", theirs), "field ", f"exception {number}")
+            yield from _types(
+                ShapeMember("", mine), ShapeMember("", theirs), "field ", f"exception {number}"
+            )
 
 
 def _neighbours(names: list[str], name: str) -> str:

@@ -11,7 +11,7 @@ from robocomp_dsl.runtime.robocomp.event_loop import EventLoop
 from robocomp_dsl.runtime.robocomp.signals import BoundSignal
 
 
-class Application:
+class WorkerApplication:
     """`QApplication.instance()`. `aboutToQuit` is emitted when the component finalizes."""
 
     def __init__(self, loop: EventLoop, request_stop: Callable[[], None]) -> None:
@@ -33,10 +33,10 @@ class QApplication:
     """The class of the application: its methods are those of the current worker's."""
 
     @staticmethod
-    def instance() -> Application:
+    def instance() -> WorkerApplication:
         """The application of the worker that runs."""
         application = EventLoop.current().application
-        if not isinstance(application, Application):
+        if not isinstance(application, WorkerApplication):
             raise TypeError("there is no application before the component initializes")
         return application
 

@@ -13,7 +13,7 @@ from functools import partial
 from typing import Any, ClassVar, TypeAlias
 
 from robocomp_dsl.runtime.component.component import Component
-from robocomp_dsl.runtime.robocomp.application import Application
+from robocomp_dsl.runtime.robocomp.application import WorkerApplication
 from robocomp_dsl.runtime.robocomp.event_loop import EventLoop
 from robocomp_dsl.runtime.robocomp.machines import DefaultMachine, MachineControl, MachineSignal
 from robocomp_dsl.runtime.robocomp.mutexes import QMutex
@@ -78,7 +78,7 @@ class LegacyWorker(Component):
         """Create what the old base class had, and call the old `__init__` and `setParams`."""
         life, clock, name, stop = self._lifecycle, self.clock, self.name, self._request_stop
         loop = self._loop = EventLoop()
-        loop.application = Application(loop, stop)
+        loop.application = WorkerApplication(loop, stop)
         life.on_stop.append(loop.stop)
         self.Period = DEFAULT_PERIOD_MS
         self.timer = ComputeTimer(loop, life.set_period)

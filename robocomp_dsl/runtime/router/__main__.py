@@ -18,7 +18,7 @@ from pathlib import Path
 from robocomp_dsl.runtime.component import logs
 from robocomp_dsl.runtime.component.sd_notify import SystemdNotifier
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.router.router_settings import read_router_settings
+from robocomp_dsl.runtime.router.router_settings import NOT_RELOADED, read_router_settings
 
 log = logging.getLogger("robocomp.router")
 RETRY_S = 1.0
@@ -55,7 +55,7 @@ def main(arguments: list[str] | None = None) -> int:
         try:
             router.reload(read_router_settings(options.settings))
         except MiddlewareError as error:
-            log.warning("%s: the router goes on with the former settings", error)
+            log.warning("%s: %s", error, NOT_RELOADED)
     notifier.state_changed("finalize")
     router.close()
     log.info("stopped")

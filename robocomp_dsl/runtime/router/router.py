@@ -24,7 +24,7 @@ from robocomp_dsl.runtime.presence.tls_settings import (
     tls_settings,
 )
 from robocomp_dsl.runtime.router.refusals import RefusalLog
-from robocomp_dsl.runtime.router.router_settings import RouterSettings
+from robocomp_dsl.runtime.router.router_settings import RELOADED, RouterSettings
 from robocomp_dsl.runtime.router.zenoh_log import ZenohLog
 
 log = logging.getLogger("robocomp.router")
@@ -75,7 +75,7 @@ class Router:
             self._open(self._settings)
             raise
         self._settings = settings
-        log.info("uses new settings, listens at %s", ", ".join(settings.listen))
+        log.info("%s, listens at %s", RELOADED, ", ".join(settings.listen))
 
     def close(self) -> None:
         """Close all links."""

@@ -21,6 +21,8 @@ from robocomp_dsl.runtime.presence.network_settings import (
     read_json_object,
 )
 
+RELOADED, NOT_RELOADED = "uses new settings", "the router goes on with the former settings"
+"""One of both is in the log line at the end of a reload."""
 _FIELDS = ("name", "listen", "connect", "ca", "certificate", "key", "access")
 
 

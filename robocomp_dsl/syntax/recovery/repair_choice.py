@@ -14,6 +14,7 @@ from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
 from robocomp_dsl.syntax.recovery import repair_identifiers as words
 from robocomp_dsl.syntax.recovery import repair_punctuation as signs
+from robocomp_dsl.syntax.recovery import repair_tokens as whole
 from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair
 from robocomp_dsl.syntax.recovery.repair_bridge import bridge_mistakes
@@ -49,6 +50,8 @@ def _proposals(context: ErrorContext, item: list[Token], keep: int) -> Iterator[
     """All possible repairs, the most likely first."""
     accepted = context.accepted_terminals()
     yield from bridge_mistakes(context, accepted)
+    yield from whole.doubled_token(context, item, keep)
+    yield from whole.doubled_sign(context, accepted)
     yield from signs.missing_semicolon(context)
     yield from signs.commented_semicolon(context)
     yield from signs.earlier_semicolon(context, item, keep)
@@ -65,14 +68,19 @@ def _proposals(context: ErrorContext, item: list[Token], keep: int) -> Iterator[
     yield from _block(context, [], 0)
     yield from _at_statement_start(context, item, keep)
     yield from signs.wrong_bracket(context, accepted)
+    yield from whole.missing_first_keyword(context, item, keep)
     # Missing punctuation is more likely than a surplus identifier, and loses no text.
     if signs.IDENTIFIER.fullmatch(context.lookahead[0].text):
+        yield from whole.missing_keyword_between_names(context)
         yield from signs.missing_punctuation(context, accepted)
+        yield from whole.swapped_tokens(context, item, keep)
         yield from signs.surplus_token(context)
     else:
+        yield from whole.swapped_tokens(context, item, keep)
         yield from signs.surplus_token(context)
         yield from signs.wrong_punctuation(context, accepted)
         yield from signs.missing_punctuation(context, accepted)
+    yield from whole.missing_keyword(context)
 
 
 def _at_statement_start(context: ErrorContext, item: list[Token], keep: int) -> Iterator[Repair]:

@@ -235,7 +235,7 @@ def type_first(context: ErrorContext, accepted: list[str]) -> Iterator[Repair]:
     if "ID" not in accepted or not token.kind.endswith("_TYPE"):
         return
     name = context.lookahead[1]
-    if name.kind != "ID":
+    if name.kind != "ID" or name.text in ("true", "false"):
         return
     right = f"{name.text} {token.text}"
     yield Repair(

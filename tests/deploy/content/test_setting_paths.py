@@ -111,3 +111,19 @@ def test_set_path_is_copied_to_the_host(app: Path) -> None:
     (tree,) = trees.values()
     assert "app/robot.yaml" in [file.path for file in tree.files]
     assert dict(tree.named)[str(app.with_name("robot.yaml"))].endswith("app/robot.yaml")
+
+
+def test_model_and_positions_of_a_tactile_description_are_copied(app: Path) -> None:
+    write_files(
+        app.parent,
+        {
+            "robot.yaml": "robot: r\nmodel: body.xml   # MJCF\nparts:\n"
+            "  arm: {skin: [{patch: p, file: taxels.txt}, {patch: q, file: gone.txt}]}\n",
+            "body.xml": "",
+            "taxels.txt": "",
+        },
+    )
+    trees, findings = describe(app, text('set description = "robot.yaml";'))
+    assert findings == []
+    (tree,) = trees.values()
+    assert {"app/robot.yaml", "app/body.xml", "app/taxels.txt"} <= {f.path for f in tree.files}

@@ -82,11 +82,12 @@ def test_access_rules_allow_client_to_call_its_server_only(tmp_path: Path) -> No
         "rc/app/n/**",
         "rc/app/l/Tasks::News/*/server/*/*",
         "rc/app/h/server",
+        "rc/app/i/**",
     }
     assert keys_of(rules, "client", "ingress", "put") == {job.format("c")}
     assert keys_of(rules, "server", "ingress", "put") == {"rc/app/t/Tasks::News/*/server/News/*"}
-    assert keys_of(rules, "client", "ingress", "declare_queryable") == set()
-    assert keys_of(rules, "server", "ingress", "query") == set()
+    assert keys_of(rules, "client", "ingress", "declare_queryable") == {"rc/app/i/client/*/*"}
+    assert keys_of(rules, "server", "ingress", "query") == {"rc/app/i/**"}
     assert keys_of(rules, "client", "egress", "put") == {"rc/app/t/Tasks::News/*/server/*/*"}
     assert keys_of(rules, "server", "egress", "put") == {job.format("c")}
 

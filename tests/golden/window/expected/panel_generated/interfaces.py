@@ -12,7 +12,21 @@ class HardwareFailedException(
     what: rt.String = ""
 
 
-class TBaseState(rt.Struct, type_id="RoboCompGenericBase::TBaseState"):
+class TBaseState(
+    rt.Struct,
+    type_id="RoboCompGenericBase::TBaseState",
+    units={
+        "x": "mm",
+        "correctedX": "mm",
+        "z": "mm",
+        "correctedZ": "mm",
+        "alpha": "rad",
+        "correctedAlpha": "rad",
+        "advVx": "mm/s",
+        "advVz": "mm/s",
+        "rotV": "rad/s",
+    },
+):
     """Odometry of the base. The corrected pose is compensated for known drift; in a
     simulator it is the true pose.
     """
@@ -32,7 +46,20 @@ class TBaseState(rt.Struct, type_id="RoboCompGenericBase::TBaseState"):
 shortVector = rt.Int32Array
 
 
-class LaserConfData(rt.Struct, type_id="RoboCompLaser::LaserConfData"):
+class LaserConfData(
+    rt.Struct,
+    type_id="RoboCompLaser::LaserConfData",
+    units={
+        "maxDegrees": "deg",
+        "maxRange": "mm",
+        "minRange": "mm",
+        "iniRange": "deg",
+        "endRange": "deg",
+        "sampleRate": "ms",
+        "angleRes": "deg",
+        "angleIni": "deg",
+    },
+):
     """Configuration of the laser. A `staticConf` of 0 means that it may change while
     running.
     """
@@ -52,7 +79,9 @@ class LaserConfData(rt.Struct, type_id="RoboCompLaser::LaserConfData"):
     angleIni: rt.Float = 0.0  # [deg]
 
 
-class TData(rt.Struct, type_id="RoboCompLaser::TData"):
+class TData(
+    rt.Struct, type_id="RoboCompLaser::TData", units={"angle": "rad", "dist": "mm"}
+):
     """One ray. A ray without a hit has the maximum range."""
 
     angle: rt.Float = 0.0  # [rad]

@@ -1,0 +1,177 @@
+"""Faults of one token in real files: deleted, doubled, swapped with the next one, misspelled.
+
+In: files without errors and a random generator. Out: texts with one fault each, and what
+`rcgen check` finds in them.
+"""
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Iterator
+from functools import cache
+from itertools import takewhile
+from pathlib import Path
+from typing import NamedTuple
+
+from robocomp_dsl.check.languages import check_file
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.diagnostics import Diagnostic, Fix, Report, Severity
+from robocomp_dsl.source import Source
+from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
+from robocomp_dsl.syntax.grammar.grammar_file import END
+from robocomp_dsl.syntax.grammar.lexer import Lexer, Token
+from robocomp_dsl.syntax.grammar.tables import load
+
+ROOT = Path(__file__).resolve().parents[1]
+SUFFIXES = (".idsl", ".cdsl", ".pdsl", ".ddsl", ".smdsl")
+KINDS = ("delete", "double", "swap", "misspell")
+FENCE = re.compile(r"^```(idsl|cdsl|pdsl|ddsl|smdsl)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+WORKSPACE = Workspace(environ={})
+"""Keeps the imported files, as in the language server."""
+
+_WORD = re.compile(r"[A-Za-z_]\w{2,}", re.ASCII)
+
+
+class Fault(NamedTuple):
+    """A text with one fault of `kind` in the range [start, end) of the text without it."""
+
+    path: Path
+    kind: str
+    original: str
+    text: str
+    start: int
+    end: int
+
+
+class Outcome(NamedTuple):
+    """What the check of a fault shows: number of errors, and whether the first one helps."""
+
+    errors: int
+    near: bool
+    restored: bool
+
+
+def texts(suffix: str) -> Iterator[tuple[Path, str]]:
+    """The files and the examples of the documents in a language that have no errors."""
+    for folder in ("interfaces", "components"):
+        for path in sorted((ROOT / folder).rglob(f"*{suffix}")):
+            yield path, path.read_text("utf-8")
+    documents = [*sorted((ROOT / "docs").rglob("*.md")), ROOT / "README.md"]
+    for document in documents:
+        examples = FENCE.findall(document.read_text("utf-8"))
+        for number, (language, text) in enumerate(examples):
+            if f".{language}" == suffix:
+                yield document.with_name(f"{document.stem}{number}{suffix}"), text
+
+
+def tokens(text: str, suffix: str) -> list[Token]:
+    """The tokens of a text, without the end of the file."""
+    source = Source(Path(f"x{suffix}"), text)
+    lexer = Lexer(source, load(suffix[1:]), FileDiagnostics(source, Report()))
+    return list(takewhile(lambda token: token.kind != END, lexer.tokens()))
+
+
+def find_errors(path: Path, text: str) -> list[Diagnostic]:
+    """The errors that `rcgen check` shows for the text as content of `path`, in its order."""
+    report = Report()
+    WORKSPACE.sources.set_overlay(path, text)
+    try:
+        check_file(path, WORKSPACE, report)
+    finally:
+        WORKSPACE.sources.remove_overlay(path)
+    return [d for d in report.sorted() if d.severity is Severity.ERROR]
+
+
+@cache
+def correct_texts(suffix: str) -> list[tuple[Path, str, list[Token]]]:
+    """The texts of a language without errors, and their tokens."""
+    return [
+        (path, text, tokens(text, suffix))
+        for path, text in texts(suffix)
+        if not find_errors(path, text)
+    ]
+
+
+def faults(suffix: str, kind: str, count: int, rng: random.Random) -> Iterator[Fault]:
+    """`count` faults of a kind, at tokens that are equally likely in all texts."""
+    candidates = [
+        (path, text, found, index)
+        for path, text, found in correct_texts(suffix)
+        for index in range(len(found) - 1)
+    ]
+    rng.shuffle(candidates)
+    for path, text, found, index in candidates:
+        if count == 0:
+            return
+        fault = _fault(path, text, found, index, kind, rng)
+        if fault:
+            count -= 1
+            yield fault
+
+
+def _fault(
+    path: Path, text: str, found: list[Token], index: int, kind: str, rng: random.Random
+) -> Fault | None:
+    token, following = found[index], found[index + 1]
+    start, end, word = token.start, token.end, text[token.start : token.end]
+    if kind == "swap":
+        end = following.end
+        other = text[following.start : end]
+        if other == word:
+            return None
+        between = text[token.end : following.start]
+        changed = other + (between or _blank(other, word)) + word
+    elif kind == "misspell":
+        if not _WORD.fullmatch(word):
+            return None
+        changed = _misspelled(word, rng)
+    elif kind == "double":
+        changed = f"{word}{_blank(word, word)}{word}"
+    else:
+        changed = ""
+    return Fault(path, kind, text, text[:start] + changed + text[end:], start, end)
+
+
+def _blank(first: str, second: str) -> str:
+    """What separates two tokens that would be one without it."""
+    return " " if f"{first[-1]}{second[0]}".replace(".", "0").isalnum() else ""
+
+
+def _misspelled(word: str, rng: random.Random) -> str:
+    """One letter is missing, doubled, swapped with the next one or another one."""
+    at = rng.randrange(1, len(word) - 1)
+    return rng.choice(
+        [
+            word[:at] + word[at + 1 :],
+            word[:at] + word[at] + word[at:],
+            word[: at - 1] + word[at] + word[at - 1] + word[at + 1 :],
+            word[:at] + rng.choice("aeiourstn") + word[at + 1 :],
+        ]
+    )
+
+
+def judge(fault: Fault) -> Outcome | None:
+    """What the check shows; None if the changed text is correct."""
+    errors = find_errors(fault.path, fault.text)
+    if not errors:
+        return None
+    suffix = fault.path.suffix
+    line = errors[0].span.start_position[0] - 1
+    first = fault.original.count("\n", 0, fault.start)
+    last = fault.original.count("\n", 0, fault.end)
+    fixes = [error.fix for error in errors if error.fix]
+    right = [token.text for token in tokens(fault.original, suffix)]
+    restored = any(
+        [token.text for token in tokens(apply(fault.text, fix), suffix)] == right
+        for fix in fixes[:1]
+    )
+    return Outcome(len(errors), first - 1 <= line <= last + 1, restored)
+
+
+def apply(text: str, fix: Fix) -> str:
+    """The text after the edits of a fix."""
+    edits = sorted(fix.edits, key=lambda edit: (edit.span.start, edit.span.end), reverse=True)
+    for edit in edits:
+        text = text[: edit.span.start] + edit.text + text[edit.span.end :]
+    return text

@@ -1,0 +1,90 @@
+"""A fault of one token in a correct file: one error, at its place, whose fix restores the file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from benchmarks.bench_recovery import measure
+from benchmarks.token_faults import KINDS, SUFFIXES, Fault, apply, find_errors, judge
+
+IDSL = """\
+module M
+{
+    struct Place
+    {
+        double x [m];
+        string name;
+    };
+    exception Lost { string what; };
+    interface Finder
+    {
+        Place find(string name) throws Lost;
+        void forget(string name);
+    };
+};
+"""
+SMDSL = """\
+Machine
+{
+    initial_state Idle;
+    states Busy;
+    transitions
+    {
+        Idle => Busy on started;
+        Busy => Idle on finished;
+    };
+};
+"""
+PDSL = """\
+ComponentParams P
+{
+    speed float 1 [m/s] 0:20 live;
+    quiet bool true live;
+};
+"""
+CASES = [
+    (".idsl", IDSL, "string name;", "string string name;", "`string` is written twice"),
+    (".idsl", IDSL, "module M", "module module M", "`module` is written twice"),
+    (".idsl", IDSL, "exception L", "exception exception L", "`exception` is written twice"),
+    (".idsl", IDSL, "struct Place", "Place", "`struct` is missing before `Place`"),
+    (".idsl", IDSL, "interface Finder", "Finder", "`interface` is missing before `Finder`"),
+    (".idsl", IDSL, "x [m];", "[m] x;", "`[m]` and `x` are in the wrong order"),
+    (".idsl", IDSL, "string name;", "name string;", "unknown type `name`"),
+    (".idsl", IDSL, "void forget", "viod forget", "unknown type `viod`"),
+    (".smdsl", SMDSL, "on started", "started", "`on` is missing before `started`"),
+    (".smdsl", SMDSL, "=> Busy", "=>=> Busy", "`=>` is written twice"),
+    (".smdsl", SMDSL, "Idle =>", "=> Idle", "`=>` and `Idle` are in the wrong order"),
+    (".smdsl", SMDSL, "=> Busy", "=> Buzsy", "unknown state `Buzsy`"),
+    (".pdsl", PDSL, "0:20", "0::20", "`:` is written twice"),
+    (".pdsl", PDSL, "true live", "true live live", "`live` is written twice"),
+]
+
+
+@pytest.mark.parametrize(("suffix", "text", "right", "wrong", "message"), CASES)
+def test_parser_repairs_fault_of_one_token(
+    suffix: str, text: str, right: str, wrong: str, message: str, tmp_path: Path
+) -> None:
+    path = tmp_path / f"x{suffix}"
+    assert not find_errors(path, text)
+    changed = text.replace(right, wrong, 1)
+    errors = find_errors(path, changed)
+    assert [error.message for error in errors] == [message]
+    assert errors[0].fix
+    assert not find_errors(path, apply(changed, errors[0].fix))
+    start = text.index(right)
+    outcome = judge(Fault(path, "", text, changed, start, start + len(right)))
+    assert outcome
+    assert outcome.near
+    assert outcome.restored
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_measure_finds_faults_in_each_language(suffix: str, kind: str) -> None:
+    outcomes = measure(suffix, kind, count=20)
+    assert outcomes
+    assert all(outcome.errors for outcome in outcomes)
+    if kind == "double":
+        assert sum(outcome.restored for outcome in outcomes) >= 0.8 * len(outcomes)
