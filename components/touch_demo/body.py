@@ -22,6 +22,7 @@ FINGER = ("finger_x", "finger_y", "finger_z")
 CAMERA = "onlooker"
 _DOT = 0.0032
 _BODY, _FLOOR, _FINGERTIP = (0.86, 0.89, 0.93, 1), (0, 0, 0, 0), (0.0, 0.62, 0.45, 1)
+_OVERLAP = 0.001
 _CLEAR = 0.055
 """m from the limb's axis: outside the limb, and closer than the rest of the robot."""
 
@@ -98,6 +99,10 @@ class Body:
         way = mujoco.mj_ray(self.model, self.data, start, -out, None, 1, finger, geom)
         touched: Floats = start - (way - self.finger_radius) * out
         return touched
+
+    def is_accessible(self, place: Place) -> bool:
+        """Whether the finger can touch the field's centre without overlapping anything else."""
+        return self.clearance(self.touching(place)) > -_OVERLAP
 
     def clearance(self, point: Floats) -> float:
         """Distance of a finger at `point` (3,) to everything else, at most 0.2 m."""

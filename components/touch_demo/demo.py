@@ -96,7 +96,7 @@ def touched(subject: Subject, touches: int) -> Recording:
         body = Body(subject.world, stage.skin, subject.part)
         body.pose(rest)
         home, presses = body.finger_point, list[Press]()
-        for place in places[:touches]:
+        for place in [place for place in places if body.is_accessible(place)][:touches]:
             print(f"{subject.name}: touching the {words(place.name)}", flush=True)
             presses.append(pressed(subject.name, stage, body, place))
         park(stage, body, home)
@@ -129,7 +129,7 @@ def watch_live(subject: Subject, port: int) -> None:
             message = f"{live.url} shows {subject.name} and what its skin feels; Ctrl-C ends it"
             print(message, flush=True)
             while True:
-                for place in places:
+                for place in filter(body.is_accessible, places):
                     press(stage, body, place)
 
 

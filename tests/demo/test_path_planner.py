@@ -54,7 +54,9 @@ def test_skin_map_places_are_first_contacts_of_finger(tmp_path, name) -> None:
     body.pose(ROBOTS[name]().start, finger=np.zeros(3))
     home = body.finger_point
     assert home == pytest.approx([0.6, 0.6, 0.5])
-    for place in places(name):
+    accessible = [place for place in places(name) if body.is_accessible(place)]
+    assert len(accessible) >= 5
+    for place in accessible:
         spot, out = body.touching(place), body.outward(place)
         assert body.clearance(spot) == pytest.approx(0.0, abs=1e-3), place.name
         assert body.clearance(spot + 0.01 * out) > 0.008, place.name
@@ -72,7 +74,7 @@ def test_skin_map_is_cut_where_nothing_is_pressed() -> None:
     assert seam(places()[:4]) == pytest.approx(np.radians(-135))
     front = places()[4]
     (at,) = unrolled(front.centre[None], 0.03, seam([front]))
-    assert at == pytest.approx([np.pi * 30, 35])  # in the middle, and 35 mm along the limb
+    assert at == pytest.approx([np.pi * 30, 32])  # in the middle, and 32 mm along the limb
 
 
 def test_skin_map_field_edge_is_at_radius() -> None:
@@ -84,4 +86,4 @@ def test_skin_map_field_edge_is_at_radius() -> None:
     assert turns[at[1]] == pytest.approx(np.pi, abs=0.02)
     assert along[at[0]] == pytest.approx(0.06, abs=1e-3)
     inside = along[(away < 1).any(axis=1)]
-    assert (inside.min(), inside.max()) == pytest.approx((0.025, 0.095), abs=2e-3)
+    assert (inside.min(), inside.max()) == pytest.approx((0.022, 0.098), abs=2e-3)

@@ -64,7 +64,7 @@ def test_bridge_page_shows_parts_messages_and_drawing(tmp_path: Path) -> None:
     page = files["bridges/rover.md"]
     lines = page.splitlines()
     for cells in (
-        ("`left`", "`yarp`", "`/left:o`", "best effort", "The left wheel."),
+        ("`left`", "`yarp`", "`/left:o`", "best\\_effort", "The left wheel."),
         ("`wheels`", "synchronised within 20\u00a0ms, not older than 0.5\u00a0s"),
         ("`states`", "at 50\u00a0Hz", "`/states`"),
         ("`states`", "`header.frame_id`"),

@@ -138,7 +138,7 @@ def test_deployment_page_shows_external_programs_and_monitors(
     assert "laser Laser implements rpc laser:tcp -p 10001 The laser of the old robot." in text
     assert "wander.Laser laser.Laser Laser query rpc" in text
     assert "monitor Limit" in text
-    assert "depth 2, latched, liveliness 500 ms, thread priority 5" in text
+    assert "keep last 2, latched, liveliness 500 ms, thread priority 5" in text
     assert "2 components, 3 connections" in site["deployments/app.html"]
     assert check_links(site) > 20
 

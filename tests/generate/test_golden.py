@@ -24,7 +24,9 @@ def test_golden(case: str, update_golden: bool) -> None:
         shutil.rmtree(folder, ignore_errors=True)
         golden.put(files, folder)
     found = {
-        str(p.relative_to(folder)): p.read_text("utf-8") for p in folder.rglob("*") if p.is_file()
+        str(p.relative_to(folder)): p.read_text("utf-8")
+        for p in folder.rglob("*")
+        if p.is_file() and p.parent.name != "__pycache__"
     }
     for file in files:
         assert file.text == found.pop(file.path, None), file.path

@@ -80,7 +80,7 @@ async def test_hover_shows_ros_message(editor: Editor) -> None:
     found = await editor.client.text_document_hover_async(params)
     assert found
     assert isinstance(found.contents, lsp.MarkupContent)
-    for text in ("struct demo_msgs::Reading", "const byte OK = 0;", "uint32[<=4] values [m];",
+    for text in ("struct demo_msgs::Reading", "const byte OK = 0;", "unsigned int[<=4] values [m];",
                  "std_msgs::Header header;", "One reading of a sensor."):  # fmt: skip
         assert text in found.contents.value
 

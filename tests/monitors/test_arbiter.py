@@ -116,6 +116,6 @@ def test_event_container_forgets_lifetimes_when_time_is_reset() -> None:
 )
 def test_event_container_rejects_names_and_lifetimes(event: str, lifetime: float) -> None:
     events = EventContainer(ManualClock())
-    with pytest.raises(ValueError, match=r"no name of an event|a time above 0 s"):
+    with pytest.raises(ValueError, match=r"not the name of an event|a time above 0 s"):
         events.set(event, lifetime)
     assert not events.active()

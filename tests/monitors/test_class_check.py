@@ -59,7 +59,11 @@ VALID = HEADER + dedent("""
         ("def update_stop(self):\n  return ()", "update_stop", "no arguments to update"),
         ("async def accept_stop(self):\n  return True", "accept_stop", "must not be async"),
         ("def on_created(self):\n  pass", "on_created", "never called"),
-        ("def on_create(self):\n  self.set_event('e face', 1)", "'e face'", "no name of an event"),
+        (
+            "def on_create(self):\n  self.set_event('e face', 1)",
+            "'e face'",
+            "not the name of an event",
+        ),
         ("def on_create(self):\n  self.set_event('e', 0)", "0", "more than 0 s"),
         ("def on_create(self):\n  self.set_event('e', lifetime=-1)", "-1", "more than 0 s"),
     ],

@@ -118,8 +118,16 @@ def test_reflex_responses_to_physics_match_equations(start_physical_reflex, robo
         assert event.motion == pytest.approx(expected * field.motion, abs=1e-5)
 
 
-@BOTH
-@pytest.mark.parametrize("place", ["lower_arm_under", "upper_arm_front"])
+SYMMETRIC = [
+    ("nao_h25", "lower_arm_under"),
+    ("nao_h25", "upper_arm_front"),
+    ("icub_v2", "lower_arm_under"),
+    ("icub_v2", "upper_arm_front_distal"),
+]
+"""Fields whose taxels lie evenly around the centre, so that a press on it is felt there."""
+
+
+@pytest.mark.parametrize(("robot", "place"), SYMMETRIC)
 def test_reflex_saturates_at_hard_press_on_centre(start_physical_reflex, robot, place) -> None:
     """Rows 1 and 6: as far as the base motion says, and no further."""
     harness = start_physical_reflex(robot, "right_arm", threshold=0.01, full=0.05, law="fixed")

@@ -17,7 +17,7 @@ REJECTED = {
     "num_ports 0": (TO_ROS, ("num_ports = 2", "num_ports = 0"), "`0` is no number"),
     "num_ports negative": (TO_ROS, ("num_ports = 2", "num_ports = -2"), "`-2` is no number"),
     "empty name": (TO_ROS, ("state:o, /rover", "state:o,, /rover"), "a name is missing"),
-    "name without slash": (TO_ROS, (" /rover/right", " rover/right"), "no name of a port"),
+    "name without slash": (TO_ROS, (" /rover/right", " rover/right"), "not the name of a port"),
     "name with a blank": (TO_ROS, ("/rover/right", "/rover /right"), "has a blank"),
     "num_mux too small": (TO_ROS, ("num_mux = 2", "num_mux = 1"), "`[mux2]` is not read"),
     "num_mux too large": (TO_ROS, ("num_mux = 2", "num_mux = 3"), "`[mux3]` is missing"),

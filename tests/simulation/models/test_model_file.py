@@ -144,7 +144,7 @@ JOINT = "<joint name='j' type='{}'><parent link='{}'/><child link='{}'/>{}</join
             "the joint `j` follows `z`, which is not there",
         ),
         ("<mujoco>\n<worldbody>\n<geom sise='1'/></worldbody></mujoco>", 3, "attribute: 'sise'"),
-        ("<mujoco>\n<worldbody>", 2, "XML_ERROR"),
+        ("<mujoco>\n<worldbody>", 2, "not well-formed XML"),
         ("<mujoco>\n<include file='model.xml'/></mujoco>", 2, "already included"),
         (
             "<mujoco><worldbody><body name='a'/>\n<body name='a'/></worldbody></mujoco>",
