@@ -34,6 +34,7 @@ def display() -> Iterator[str]:
         "400x300x24",
         "-nolisten",
         "tcp",
+        "-noreset",  # otherwise it restarts whenever its last client has gone
     ]
     with subprocess.Popen(command, pass_fds=[write_end], stderr=subprocess.DEVNULL) as server:
         os.close(write_end)
@@ -65,9 +66,11 @@ def test_window_on_display_receives_clicks_and_is_closed(display: str, tmp_path:
                 found = subprocess.run(
                     command, env=environment, capture_output=True, text=True, check=False
                 )
-                return found.stdout.strip() or str(process.poll() or "")
+                return found.stdout.strip()
 
-            handle = wait_until(window, timeout=DEADLINE_S)
+            wait_until(lambda: window() or process.poll() is not None, timeout=DEADLINE_S)
+            handle = window()
+            assert handle, process.communicate()[1]
             click = ["xdotool", "mousemove", "--window", handle, "30", "20", "click", "1"]
             wait_until(
                 lambda: (
