@@ -278,6 +278,7 @@ def test_wrong_requests_are_refused(call: tuple[str, ...], text: str) -> None:
         assert [(i.port, i.peer, i.qos) for i in deployment.list("sink").values()] == before
         with pytest.raises(Refusal, match="change it there"):
             deployment.connections("a").connect("News", "/sink.News", "")
+        wait_until(lambda: any(port == "Probe" for port, _ in deployment.list("a")))
         with pytest.raises(Refusal, match="only `thread_priority`"):
             deployment.connections("a").setQos("Probe", "", "depth=2")
     finally:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+from time import monotonic, sleep
 
 import zenoh
 
@@ -18,6 +19,9 @@ from robocomp_dsl.runtime.presence.house_queries import HouseQueries
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.port_registry import PortRegistry
 from robocomp_dsl.runtime.presence.publications import PublicationCounter, PublisherRegistry
+
+SETTLE_S = 0.1
+"""Links to the other peers of a machine are made within this time."""
 
 
 def open_presence(domain: str, component: str, port: int = 0, *, unique: bool) -> ZenohPresence:
@@ -76,7 +80,16 @@ class ZenohPresence:
         """See `Presence`."""
         if not self.registry.wait("server", interface, lambda _record: True, timeout):
             return []
-        # The tokens of other peers may not have arrived: ask all peers.
+        # Links to other peers may still be made: ask all peers until their answers stay the same.
+        end = monotonic() + timeout
+        found, before = self._server_components(interface, timeout), None
+        while found != before and monotonic() < end:
+            sleep(SETTLE_S)
+            found, before = self._server_components(interface, timeout), found
+        return found
+
+    def _server_components(self, interface: str, timeout: float) -> list[str]:
+        """The components whose tokens the connected peers have, sorted."""
         key = f"{keys.domain_prefix(self.domain)}/p/server/**"
         replies = self._session.liveliness().get(key, timeout=timeout)
         samples = [reply.ok for reply in replies if reply.ok is not None]
