@@ -44,8 +44,7 @@ class Body:
         self.data: Any = mujoco.MjData(self.model)
         self.sites = np.array([self.model.site(f"taxel{i}").id for i in range(len(skin.limb))])
         self._known = {self.model.joint(i).name for i in range(self.model.njnt)}
-        mapping = part.mapping
-        self._mapping, self._to_si = mapping, mapping.to_si[mapping.present]
+        self._mapping = part.mapping
         self._joints = [name.rpartition("/")[2] for name in part.joints]
         self._finger_body = int(self.model.joint(FINGER[0]).bodyid[0])
         self._finger_bodies = {int(self.model.joint(name).bodyid[0]) for name in FINGER}
@@ -65,8 +64,7 @@ class Body:
         """
         angles = {name: at for name, at in (joints or {}).items() if name in self._known}
         if arm is not None:
-            device = (arm - self._mapping.sigma) / self._mapping.gamma
-            values = device[self._mapping.present] * self._to_si
+            values = self._mapping.joint_positions(arm)
             angles |= dict(zip(self._joints, values.tolist(), strict=True))
         if finger is not None:
             angles |= dict(zip(FINGER, finger.tolist(), strict=True))

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from robocomp_dsl.simulation.robots.catalog import description
 from robocomp_dsl.tactile.arm.mapping import PartMapping
 from robocomp_dsl.tactile.errors import InvalidCommand
 
@@ -122,3 +123,10 @@ def test_mapping_of_stiffness_conserves_energy(gamma, moved, stiffness):
     device = part.displacement(np.array([moved])).values * DEGREES
     energy = part.stiffness(np.array([stiffness])).values * device**2
     assert energy == pytest.approx([stiffness * moved**2], abs=1e-12)
+
+
+def test_joint_positions_invert_readings_without_clipping() -> None:
+    mapping = description("icub_v2").part("left_arm").mapping
+    degrees = np.array([-40.0, 200.0, 10.0, 60.0, 5.0])  # the second is beyond its limit
+    positions = mapping.joint_positions(mapping.read(degrees))
+    assert positions == pytest.approx(np.radians(degrees))

@@ -10,6 +10,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from robocomp_dsl.simulation.models.body_model import BodyModel
+from robocomp_dsl.simulation.robots.catalog import description
 from tests.touch.kinematic_robot import DESCRIPTIONS, ReflexHarness, interfaces
 from tests.touch.physical_robot import PhysicalRobot
 
@@ -117,3 +119,16 @@ def test_reflex_ignores_contact_of_robot_with_itself(start_at: StartAt, tmp_path
         assert bool(counted) == (not params)
     assert responses[0] == 0
     assert responses[1] > 0
+
+
+def test_close_points_are_on_both_limbs_of_a_flexed_arm() -> None:
+    """An arm that touches itself is felt by the skin of the upper arm and of the lower arm."""
+    body = BodyModel.load(description("nao_h25"), "left_arm")
+    flexed = body.part.start.copy()
+    flexed[3] = body.part.mapping.limits[1][3]
+    places = body.close_points(flexed, 0.05)
+    between_limbs = [place for place in places if place.other in {"LBicep", "l_wrist"}]
+    assert {(place.limb, place.other) for place in between_limbs} == {
+        ("upper_arm", "l_wrist"),
+        ("lower_arm", "LBicep"),
+    }

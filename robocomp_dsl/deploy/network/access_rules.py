@@ -172,7 +172,7 @@ class _Keys:
             yield Grant(OUT, SERVE, f"{self._root}/{kind}/**")
         for kind in ("t", "c"):
             yield Grant(OUT, SUBSCRIBE, f"{self._root}/{kind}/**")
-        # The shapes of operations are no secret, either: they tell why versions do not fit.
+        # The shapes of operations are no secret, either: they explain why versions do not fit.
         yield from self._answering(f"{self._root}/i/{self._component}/*/*")
         yield from self._asking(f"{self._root}/i/**")
         yield Grant(IN, ASK_TOKENS, f"{self._root}/p/server/**")

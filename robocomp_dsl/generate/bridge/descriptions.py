@@ -253,5 +253,5 @@ class _IdslPrinter:
 
 
 def _known_unit(text: str) -> str:
-    """A unit in brackets; "" for one of a program's own, which bridges have and IDSL has not."""
+    """A unit in brackets; "" for a unit of a program's own, which IDSL does not have."""
     return f" [{text}]" if text and not unknown_words(text) else ""

@@ -1,6 +1,6 @@
 """Operations that a peer with another version of an interface has in common with a port.
 
-In: the own interface, the record of the peer, and the shapes that the peer tells. Out: the
+In: the own interface, the record of the peer, and the shapes of its operations. Out: the
 interface to connect with, which transports use as any other; or why an operation cannot be called.
 """
 
@@ -26,7 +26,7 @@ def is_other_version(at: Endpoint, peer: PortRecord) -> bool:
 
 
 def shapes_of_peer(at: Endpoint, peer: PortRecord, ask: ShapesOf) -> dict[str, str] | None:
-    """The shapes of a peer's operations; None if it does not tell them.
+    """The shapes of a peer's operations; None if it does not reply.
 
     A component of an earlier version of this project does not; its hash does not cover units.
     """
@@ -72,7 +72,7 @@ class PeerInterface(Interface):
         return describe_difference(operation.shape, there)
 
     def check(self, operation: Operation, at: Endpoint, peer: PortRecord) -> None:
-        """Raise `InterfaceMismatch` if the peer has the operation not, or otherwise."""
+        """Raise `InterfaceMismatch` if the peer lacks the operation, or has another version."""
         if operation.name in self._common:
             return
         raise mismatch(at, peer, operation.name, self._reason(operation, peer))

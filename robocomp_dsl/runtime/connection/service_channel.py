@@ -179,8 +179,8 @@ class ServiceChannel:
     ) -> BoundOperation:
         """The operation of the current server.
 
-        Raises what `ServerSelector.find` raises, and `InterfaceMismatch` if the server has the
-        operation not, or otherwise.
+        Raises what `ServerSelector.find` raises, and `InterfaceMismatch` if the server lacks the
+        operation, or has another version of it.
         """
         server = self._selector.find(seconds)
         with self._lock:

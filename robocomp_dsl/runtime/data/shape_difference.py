@@ -192,7 +192,7 @@ def _list(names: list[str]) -> str:
 
 
 def _readable(type_: str) -> str:
-    """A type as users write it, as far as the shape tells it."""
+    """A type as users write it, as far as it is in the shape."""
     word = _WORD.match(type_)
     name = word[0] if word else ""
     rest = type_[len(name) :]

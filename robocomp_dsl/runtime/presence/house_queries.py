@@ -36,7 +36,7 @@ class HouseQueries:
         self._component = component
         self._heartbeat: Any = None
         self._shapes: dict[str, bytes] = {}
-        self._tells_shapes = False
+        self._serves_shapes = False
 
     def answer_probes(self) -> None:
         """See `Presence`."""
@@ -65,9 +65,9 @@ class HouseQueries:
         name, hash_ = interface.name, interface.hash.hex()
         key = keys.shapes_key(self._domain, self._component, name, hash_)
         self._shapes[key] = json.dumps(interface.shapes).encode()
-        if self._tells_shapes:
+        if self._serves_shapes:
             return
-        self._tells_shapes = True
+        self._serves_shapes = True
 
         def answer(query: zenoh.Query) -> None:
             key = str(query.key_expr)
@@ -141,7 +141,7 @@ class OfferedQueryable:
 
 
 def read_shapes(data: bytes) -> dict[str, str] | None:
-    """The shapes that a peer tells; None if it tells anything else."""
+    """The shapes in the reply of a peer; None if it contains anything else."""
     try:
         shapes = json.loads(data)
     except (ValueError, RecursionError):

@@ -59,7 +59,7 @@ def heartbeat_key(domain: str, component: str) -> str:
 
 
 def shapes_key(domain: str, component: str, interface: str = "", hash_: str = "") -> str:
-    """The key at which a component tells the shapes of an interface; of all if it is empty."""
+    """The key at which a component serves the shapes of an interface; of all if it is empty."""
     root = f"{domain_prefix(domain)}/i/{escape_chunk(component)}"
     return f"{root}/{escape_chunk(interface)}/{hash_}" if interface else f"{root}/*/*"
 

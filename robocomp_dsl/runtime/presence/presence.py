@@ -90,7 +90,7 @@ class Presence(Protocol):
         """Let peers with another version of `interface` ask for the shapes of its operations."""
 
     def shapes_of(self, peer: PortRecord) -> dict[str, str] | None:
-        """The shapes of the operations of a peer's port, by name; None if it does not tell."""
+        """The shapes of the operations of a peer's port, by name; None if it does not reply."""
 
     def interrupt(self) -> None:
         """Wake all waiting threads; ports count as lost from now on."""

@@ -41,7 +41,6 @@ class BodyModel:
         names = [self.part.servos[i].joint for i in present]
         self._addresses = np.array([self._qpos_address(name) for name in names], np.int64)
         self._dofs = np.array([model.joint(name).dofadr[0] for name in names], np.int64)
-        self._to_si = self._mapping.to_si[present]
         self._limbs = {limb.name: limb for limb in self.part.limbs}
         self._limb_of = {
             model.body(body).id: limb
@@ -63,9 +62,7 @@ class BodyModel:
         """Set generic angles (n,); later calls refer to `data`."""
         if self._angles is not None and np.array_equal(self._angles, angles):
             return
-        present = self._mapping.present
-        device = ((angles - self._mapping.sigma) / self._mapping.gamma)[present] * self._to_si
-        self.data.qpos[self._addresses] = device
+        self.data.qpos[self._addresses] = self._mapping.joint_positions(angles)
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_comPos(self.model, self.data)
         self._angles = np.array(angles, dtype=np.float64)
@@ -88,15 +85,18 @@ class BodyModel:
         return jacobian
 
     def close_points(self, angles: Floats, within: float) -> list[ClosePoint]:
-        """The places where the arm is at most `within` [m] from another part of the robot."""
+        """Places of the limbs that are at most `within` [m] from another part of the robot."""
         self.set_pose(angles)
         found = []
         for mine, other, distance, segment in self._distances(within):
-            limb = self._limb_of.get(int(self.model.geom_bodyid[mine]))
-            origin, axes = self._frame(limb) if limb else (np.zeros(3), np.eye(3))
-            name = self.model.body(self.model.geom_bodyid[other]).name
-            point = (segment[:3] - origin) @ axes
-            found.append(ClosePoint(limb.name if limb else "", point, name, distance))
+            ends = ((mine, segment[:3], other), (other, segment[3:], mine))
+            for geom, point, opposite in ends:
+                limb = self._limb_of.get(int(self.model.geom_bodyid[geom]))
+                if limb:
+                    origin, axes = self._frame(limb)
+                    name = self.model.body(self.model.geom_bodyid[opposite]).name
+                    place = (point - origin) @ axes
+                    found.append(ClosePoint(limb.name, place, name, distance))
         return found
 
     def clearance(self, angles: Floats, within: float) -> float:

@@ -71,9 +71,8 @@ class MujocoPosedModel:
         self.data.qpos[:] = self._start
         for joint in part.fixed_joints:
             self.data.qpos[self._address(joint.joint)] = joint.position
-        for i in mapping.present:
-            device = (angles[i] - mapping.sigma[i]) / mapping.gamma[i] * mapping.to_si[i]
-            self.data.qpos[self._address(part.servos[i].joint)] = device
+        for i, position in zip(mapping.present, mapping.joint_positions(angles), strict=True):
+            self.data.qpos[self._address(part.servos[i].joint)] = position
         self._forward()
 
     def pose(self, name: str) -> Floats | None:

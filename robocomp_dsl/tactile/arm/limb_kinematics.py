@@ -14,10 +14,10 @@ from robocomp_dsl.tactile.arrays import Floats
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClosePoint:
-    """A place where the arm is close to another part of the robot.
+    """A place where a limb is close to the body `other` of the robot, or of the arm itself.
 
-    `point` (3,) [m] is on the surface of `limb`, in its frame; it is empty for a body of the arm
-    without a limb. `distance` [m] is negative where the bodies overlap.
+    `point` (3,) [m] is on the surface of `limb`, in its frame. `distance` [m] is negative where the
+    bodies overlap.
     """
 
     limb: str
@@ -36,7 +36,7 @@ class LimbKinematics(Protocol):
         """World velocity of `point` (3,) [m] of the limb per generic speed, (3, n) [m/rad]."""
 
     def close_points(self, angles: Floats, within: float) -> list[ClosePoint]:
-        """The places where the arm is at most `within` [m] from another part of the robot."""
+        """Places of the limbs that are at most `within` [m] from another part of the robot."""
 
     def clearance(self, angles: Floats, within: float) -> float:
         """The smallest distance [m] of the arm to the rest of the robot, at most `within`."""

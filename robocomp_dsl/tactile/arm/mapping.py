@@ -82,6 +82,15 @@ class PartMapping:
         changed = (limited != requested) & self.available
         return DeviceCommand(limited[self.present], changed, self._dropped(generic - self.sigma))
 
+    def joint_positions(self, generic: Floats) -> Floats:
+        """Positions (m,) [rad or m] of the present joints for generic positions (n,), not clipped.
+
+        The inverse of equation 1.
+        """
+        self._require(generic, self.size)
+        positions: Floats = ((generic - self.sigma) / self.gamma_si)[self.present]
+        return positions
+
     def displacement(self, generic: Floats) -> DeviceCommand:
         """Device displacements for generic displacements (n,): without sigma and clipping."""
         self._require(generic, self.size)
