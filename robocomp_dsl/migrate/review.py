@@ -15,6 +15,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.regeneration.user_module import UserModule
 from robocomp_dsl.migrate import worker_codes
+from robocomp_dsl.migrate.import_nodes import optional_nodes
 from robocomp_dsl.migrate.imports import (
     GENERATED_MODULES,
     INNER_MODEL_NAMES,
@@ -44,7 +45,6 @@ _PROCESS = {
     ("sys", "argv"): "`sys.argv` had the path of the configuration; now it has the options of"
     " `main.py`, and `self.config_file` is the configuration",
 }
-_IMPORT_ERRORS = {"ImportError", "ModuleNotFoundError", "Exception", "BaseException", "Error"}
 
 
 def review_modules(
@@ -109,7 +109,7 @@ def _review_imports(
     report: Report,
 ) -> None:
     """Report imports of modules that are neither in the folder nor installed."""
-    optional = set(_optional_nodes(module.tree))
+    optional = set(optional_nodes(module.tree))
     for node in ast.walk(module.tree):
         if node in optional or not isinstance(node, ast.Import | ast.ImportFrom):
             continue
@@ -132,24 +132,6 @@ def _review_imports(
 def _is_known_inner_model(node: ast.Import | ast.ImportFrom) -> bool:
     """Whether an import of RoboComp's `InnerModel` was replaced."""
     return isinstance(node, ast.Import) or INNER_MODEL_NAMES.issuperset(a.name for a in node.names)
-
-
-def _optional_nodes(tree: ast.Module) -> Iterator[ast.AST]:
-    """The nodes in `try` blocks that catch the error of an import."""
-    for node in ast.walk(tree):
-        if not isinstance(node, ast.Try):
-            continue
-        caught = {_caught_name(handler.type) for handler in node.handlers}
-        if caught & _IMPORT_ERRORS or "" in caught:
-            for statement in node.body:
-                yield from ast.walk(statement)
-
-
-def _caught_name(expression: ast.expr | None) -> str:
-    """The last name of a caught type; empty for a bare `except`; the first of several."""
-    if isinstance(expression, ast.Tuple):
-        return _caught_name(expression.elts[0]) if expression.elts else ""
-    return ast.unparse(expression).rpartition(".")[2] if expression else ""
 
 
 def _is_available(
