@@ -84,11 +84,7 @@ def _add_call(function: ast.expr, used: dict[str, set[str]]) -> None:
 def adapt_imports(user: UserModule, names: LegacyNames, report: Report) -> Iterator[TextEdit]:
     """The edits of all statements that import names of RoboComp, Ice or Qt."""
     used = _used_attributes(user.tree)
-    for node in relative_imports(user.tree):
-        if (new := _relative_import(node, names)) is not None:
-            span = span_of(user, node)
-            report.add(codes.IMPORT_ADAPTED, span, f"`{span.text:.80}` became `{new:.80}`")
-            yield span.start, span.end, new
+    yield from _relative_import_edits(user, names, report)
     for node in ast.walk(user.tree):
         if isinstance(node, ast.Import):
             new = _plain_import(node, names, used)
@@ -178,6 +174,16 @@ def _from_import(node: ast.ImportFrom, names: LegacyNames, used: dict[str, set[s
         listed = ", ".join(a.name + (f" as {a.asname}" if a.asname else "") for a in supported)
         return f"from {names.legacy} import {listed}" if supported else "pass"
     return None
+
+
+def _relative_import_edits(
+    user: UserModule, names: LegacyNames, report: Report
+) -> Iterator[TextEdit]:
+    for node in relative_imports(user.tree):
+        if (new := _relative_import(node, names)) is not None:
+            span = span_of(user, node)
+            report.add(codes.IMPORT_ADAPTED, span, f"`{span.text:.80}` became `{new:.80}`")
+            yield span.start, span.end, new
 
 
 def _relative_import(node: ast.ImportFrom, names: LegacyNames) -> str | None:

@@ -20,8 +20,10 @@ from robocomp_dsl.migrate.import_nodes import relative_imports
 from robocomp_dsl.migrate.infer import InferredParameters
 from robocomp_dsl.migrate.legacy import interface_names, legacy_text
 from robocomp_dsl.migrate.python_sources import read_modules
-from robocomp_dsl.migrate.review import bare_names, review_modules
+from robocomp_dsl.migrate.review import bare_names, reachable, review_modules
+from robocomp_dsl.migrate.review_fields import review_fields
 from robocomp_dsl.migrate.review_ports import review_ports
+from robocomp_dsl.migrate.review_versions import review_versions
 from robocomp_dsl.migrate.worker import adapt_module, names_for, period_of
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.regular_file import open_regular
@@ -135,9 +137,13 @@ def _review(
     if component.gui:
         local_names |= {f"ui_{path.stem}" for path in paths if path.suffix == ".ui"}
     review_ports(user, component, report)
+    readable = {name: module for name, module in by_name.items() if module}
+    imported = list(reachable(user, readable))
+    review_fields(imported, component, report)
+    review_versions(imported, report)
     review_modules(
         user,
-        {name: module for name, module in by_name.items() if module},
+        readable,
         interface_names(component),
         frozenset(local_names | names_for(component, "").servants),
         report,
