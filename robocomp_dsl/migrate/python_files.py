@@ -22,6 +22,7 @@ from robocomp_dsl.migrate.legacy import interface_names, legacy_text
 from robocomp_dsl.migrate.python_sources import read_modules
 from robocomp_dsl.migrate.review import bare_names, reachable, review_modules
 from robocomp_dsl.migrate.review_fields import review_fields
+from robocomp_dsl.migrate.review_names import review_names
 from robocomp_dsl.migrate.review_ports import review_ports
 from robocomp_dsl.migrate.review_versions import review_versions
 from robocomp_dsl.migrate.worker import adapt_module, names_for, period_of
@@ -141,11 +142,13 @@ def _review(
     imported = list(reachable(user, readable))
     review_fields(imported, component, report)
     review_versions(imported, report)
+    servants = names_for(component, "").servants
+    review_names(imported, interface_names(component), servants, report)
     review_modules(
         user,
         readable,
         interface_names(component),
-        frozenset(local_names | names_for(component, "").servants),
+        frozenset(local_names | servants),
         report,
     )
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from robocomp_dsl.migrate.review_names import PROVIDED
 from tests.migrate.processes import running
 
 Rcgen = Callable[..., object]
@@ -114,3 +116,14 @@ def test_migrate_copies_configuration_that_code_reads(
     out = tmp_path / "arm-migrated"
     assert (out / "etc/config").exists() is copied
     assert (out / "etc/config.yaml").exists()
+
+
+def test_migrate_provides_names_of_genericworker(rcgen, tmp_path: Path) -> None:
+    assert rcgen("migrate", component(tmp_path, {})).code == 0
+    tree = ast.parse((tmp_path / "arm-migrated/legacy.py").read_text())
+    listed = next(
+        ast.literal_eval(node.value)
+        for node in tree.body
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__"
+    )
+    assert set(listed) >= PROVIDED
