@@ -77,6 +77,13 @@ class Builder:
         span = Span(self.findings.region, token.start, token.end)
         return Unit(span, token.text[1:-1].strip())
 
+    def inside(self, bracket: Unit) -> Span:
+        """The range of the text between brackets; all of it if the parser swapped the token."""
+        start = bracket.span.start + bracket.span.text.find(bracket.text)
+        if start < bracket.span.start:
+            return bracket.span
+        return bracket.span.subspan(start, start + len(bracket.text))
+
     def import_file(self, span: Span, path: Text) -> Import:
         """`import "path";`."""
         return Import(span, path)
