@@ -78,9 +78,7 @@ class PdslBuilder(Builder):
                 fix=self.replace_fix(f"write `{right}`", count.span, right) if right else None,
             )
             return ast.Range(count.span, None, None)
-        if count.text not in count.span.text:  # a repair added it
-            return ast.Range(count.span, None, None)
-        start = count.span.start + count.span.text.index(count.text)
+        start = self.inside(count).start
         low, high = (_bound(count.span, start, match, group) for group in (1, 3))
         return ast.Range(count.span, low, high if match[2] else low)
 
