@@ -16,6 +16,7 @@ from robocomp_dsl.syntax.ast.base import (
     Duration,
     Import,
     Literal,
+    LiteralList,
     Name,
     Node,
     Number,
@@ -137,6 +138,10 @@ class Builder:
                 fix=self.replace_fix("delete it", span),
             )
         return items
+
+    def literal_list(self, span: Span, *values: Any) -> LiteralList:
+        """`{1.0, 2.0}`."""
+        return LiteralList(span, tuple(map(literal, self.without_trailing_comma(values))))
 
     def duration(self, span: Span, value: Number, unit: Name) -> Duration:
         """`10 s`."""

@@ -116,8 +116,8 @@ class InstancesBuilder(DevicesBuilder):
                 self.report(
                     codes.UNEXPECTED,
                     index.span,
-                    f"expected the index of a group, found `{index.text}`",
-                    help="the first group is `[0]`",
+                    f"expected an index, found `{index.text}`",
+                    help="the first element is `[0]`",
                 )
         return Name(span, "".join(span.text.split()))
 

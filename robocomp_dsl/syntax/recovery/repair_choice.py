@@ -18,6 +18,7 @@ from robocomp_dsl.syntax.recovery import repair_tokens as whole
 from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair
 from robocomp_dsl.syntax.recovery.repair_bridge import bridge_mistakes
+from robocomp_dsl.syntax.recovery.repair_lists import list_mistakes
 
 _CLOSED = ("RBRACE", "_SEMI")
 
@@ -50,6 +51,7 @@ def _proposals(context: ErrorContext, item: list[Token], keep: int) -> Iterator[
     """All possible repairs, the most likely first."""
     accepted = context.accepted_terminals()
     yield from bridge_mistakes(context, accepted)
+    yield from list_mistakes(context, accepted)
     yield from whole.doubled_token(context, item, keep)
     yield from whole.doubled_sign(context, accepted)
     yield from signs.missing_semicolon(context)
