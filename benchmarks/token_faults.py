@@ -9,6 +9,7 @@ from __future__ import annotations
 import random
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import cache
 from itertools import takewhile
 from pathlib import Path
@@ -26,6 +27,7 @@ from robocomp_dsl.syntax.grammar.tables import load
 ROOT = Path(__file__).resolve().parents[1]
 SUFFIXES = (".idsl", ".cdsl", ".pdsl", ".ddsl", ".smdsl")
 KINDS = ("delete", "double", "swap", "misspell")
+FOLDERS = ("interfaces", "components", "tests/cases", "tests/golden", "tests/migrate")
 FENCE = re.compile(r"^```(idsl|cdsl|pdsl|ddsl|smdsl)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 WORKSPACE = Workspace(environ={})
 """Keeps the imported files, as in the language server."""
@@ -54,9 +56,10 @@ class Outcome(NamedTuple):
 
 def texts(suffix: str) -> Iterator[tuple[Path, str]]:
     """The files and the examples of the documents in a language that have no errors."""
-    for folder in ("interfaces", "components"):
+    for folder in FOLDERS:
         for path in sorted((ROOT / folder).rglob(f"*{suffix}")):
-            yield path, path.read_text("utf-8")
+            with suppress(UnicodeDecodeError):  # a case of a file that is not UTF-8
+                yield path, path.read_text("utf-8")
     documents = [*sorted((ROOT / "docs").rglob("*.md")), ROOT / "README.md"]
     for document in documents:
         examples = FENCE.findall(document.read_text("utf-8"))
@@ -121,7 +124,7 @@ def _fault(
         if other == word:
             return None
         between = text[token.end : following.start]
-        changed = other + (between or _blank(other, word)) + word
+        changed = _apart(text[:start], other + (between or _blank(other, word)) + word, text[end:])
     elif kind == "misspell":
         if not _WORD.fullmatch(word):
             return None
@@ -136,6 +139,12 @@ def _fault(
 def _blank(first: str, second: str) -> str:
     """What separates two tokens that would be one without it."""
     return " " if f"{first[-1]}{second[0]}".replace(".", "0").isalnum() else ""
+
+
+def _apart(before: str, changed: str, behind: str) -> str:
+    """`changed` with blanks where its first or last token would be one with its neighbour."""
+    first = _blank(before, changed) if before else ""
+    return first + changed + (_blank(changed, behind) if behind else "")
 
 
 def _misspelled(word: str, rng: random.Random) -> str:

@@ -20,6 +20,7 @@ from robocomp_dsl.model.parameter import PATH, Kind, Parameter, ParameterSet
 from robocomp_dsl.model.types import Literal
 from robocomp_dsl.syntax.ast import pdsl as ast
 from robocomp_dsl.syntax.ast.base import Name, Number
+from robocomp_dsl.syntax.follow_on import discard_follow_on_errors
 
 KINDS = {
     "string": Kind.STRING,
@@ -48,6 +49,7 @@ def resolve_pdsl(file: Parsed[ast.File], report: Report) -> ParameterSet | None:
     if tree is None:
         return None
     members = _members(tree.members, report)
+    discard_follow_on_errors(report, file)
     return ParameterSet(tree.name.text, file.source.path, tree.name.span, members, plain(tree.doc))
 
 

@@ -13,6 +13,7 @@ from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.statemachine import StateMachine
 from robocomp_dsl.syntax.ast import innermodel, smdsl
+from robocomp_dsl.syntax.follow_on import discard_follow_on_errors
 from robocomp_dsl.syntax.parse import parse_scxml, parse_smdsl
 
 
@@ -25,6 +26,7 @@ def smdsl_machine(file: Parsed[smdsl.File], report: Report) -> StateMachine | No
     if resolved is None:
         return None
     check_smdsl_rules(*resolved, report)
+    discard_follow_on_errors(report, file)
     return resolved[0]
 
 

@@ -27,6 +27,7 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.interface import Module
 from robocomp_dsl.source import UnreadableSource
 from robocomp_dsl.syntax.ast.base import Import, QualifiedName
+from robocomp_dsl.syntax.follow_on import discard_follow_on_errors
 from robocomp_dsl.syntax.parse import DEFINITIONS, parse_idsl
 
 MAX_DEPTH = 50
@@ -120,6 +121,7 @@ class ModuleLoader:
             resolved = resolve_idsl(tree, path, scope, report)
             check_idsl_rules(resolved, report)
             modules.append(resolved.module)
+        discard_follow_on_errors(report, parsed)
         return LoadedModule(parsed, links, tuple(modules), tuple(report))
 
     def import_scope(

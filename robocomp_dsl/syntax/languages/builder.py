@@ -86,6 +86,12 @@ class Builder:
         """`Name` or `Module::Name`."""
         return QualifiedName(span, second, first) if second else QualifiedName(span, first)
 
+    def inside(self, bracket: Unit) -> Span:
+        """The range of the text in the brackets; all of it if a repair moved the token."""
+        at = bracket.span.text.find(bracket.text)
+        start = bracket.span.start + at
+        return bracket.span.subspan(start, start + len(bracket.text)) if at >= 0 else bracket.span
+
     def lone_semicolon(self, span: Span) -> None:
         """A `;` without a statement."""
         self.report(

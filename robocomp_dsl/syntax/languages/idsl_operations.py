@@ -141,8 +141,7 @@ class OperationsBuilder(LengthsBuilder):
         )
 
     def _pattern(self, mark: Unit) -> Name:
-        start = mark.span.start + mark.span.text.index(mark.text)
-        word = Name(mark.span.subspan(start, start + len(mark.text)), mark.text)
+        word = Name(self.inside(mark), mark.text)
         self.check_choice(word, PATTERNS, "pattern")
         return word
 

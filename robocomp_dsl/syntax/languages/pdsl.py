@@ -71,7 +71,7 @@ class PdslBuilder(Builder):
                 help="write `[1:32]` for one to 32 groups, `[3]` for three, `[]` for any number",
             )
             return ast.Range(count.span, None, None)
-        start = count.span.start + count.span.text.index(count.text)
+        start = self.inside(count).start
         low, high = (_bound(count.span, start, match, group) for group in (1, 3))
         return ast.Range(count.span, low, high if match[2] else low)
 

@@ -6,6 +6,9 @@ parser in a state in which parsing can continue.
 
 from __future__ import annotations
 
+import re
+
+from robocomp_dsl.diagnostics import UncertainText
 from robocomp_dsl.syntax.codes import file as codes
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
@@ -16,6 +19,8 @@ from robocomp_dsl.syntax.recovery.repair import Repair, panic_mode, trailing_tex
 from robocomp_dsl.syntax.recovery.repair_choice import choose_repair
 
 LOOK_AHEAD = 24
+_STATEMENT_ENDS = ("_SEMI", "LBRACE", "RBRACE", END)
+_NAME = re.compile(r"[A-Za-z_]\w*")
 MAX_SUPPRESSED = 500
 """Consecutive follow-on errors after which the rest of the file is skipped."""
 
@@ -43,11 +48,17 @@ def _correct_or_drop(parser: ParserState) -> None:
         _skip_trailing_text(parser, context, item, base)
         return
     repair = choose_repair(context, item, base + 1)
-    _report(parser, context, repair or panic_mode(context, item))
+    start = (item or context.lookahead)[0].start
     if repair:
+        _report(parser, context, repair, start, _end_of_statement(context))
         _apply(parser, repair)
     else:
-        _skip_statement(parser, context, base)
+        repair = panic_mode(context, item)
+        end = start
+        try:
+            end = _skip_statement(parser, context, base)
+        finally:
+            _report(parser, context, repair, start, end)
     if parser.findings.too_many_errors and not parser.findings.is_truncated:
         parser.truncate(context.lookahead[0].start)
 
@@ -94,8 +105,13 @@ def _opened(entries: list[StackEntry]) -> list[Token]:
     return opened
 
 
-def _report(parser: ParserState, context: ErrorContext, repair: Repair) -> None:
-    """Report the error, unless no token was accepted since the last one (a follow-on error)."""
+def _report(
+    parser: ParserState, context: ErrorContext, repair: Repair, start: int, end: int
+) -> None:
+    """Report the error, unless no token was accepted since the last one (a follow-on error).
+
+    [start, end) is the statement with the error.
+    """
     cut = context.lookahead[0].kind == END and parser.findings.is_truncated
     if parser.last_reported_end == context.previous.end:
         parser.suppressed += 1
@@ -106,9 +122,23 @@ def _report(parser: ParserState, context: ErrorContext, repair: Repair) -> None:
     if not parser.suppressed and not cut:
         expected = describe_expected(context, parser.builder.ITEM_NAMES)
         repair.report(
-            parser.findings, f"expected {expected}, found {quote_token(context.lookahead[0])}"
+            parser.findings,
+            f"expected {expected}, found {quote_token(context.lookahead[0])}",
+            _uncertain_text(context, repair, start, max(start, end)),
         )
     parser.last_reported_end = -1 if repair.replacement else context.previous.end
+
+
+def _uncertain_text(
+    context: ErrorContext, repair: Repair, start: int, end: int
+) -> UncertainText | None:
+    """What is uncertain about the statement [start, end) after the repair."""
+    if repair.is_certain:
+        return None
+    is_skipped = not (repair.replacement or repair.skip)
+    text = context.source.text[start:end] if is_skipped else ""
+    names = frozenset(_NAME.findall(text))
+    return UncertainText(context.source.span(start, end), names, repair.declares)
 
 
 def _apply(parser: ParserState, repair: Repair) -> None:
@@ -121,18 +151,25 @@ def _apply(parser: ParserState, repair: Repair) -> None:
     parser.stream.push_back(repair.replacement)
 
 
-def _skip_statement(parser: ParserState, context: ErrorContext, base: int) -> None:
-    """Drop the statement that began after entry `base` and skip the rest of it."""
+def _end_of_statement(context: ErrorContext) -> int:
+    """The end of the next token that ends a statement or begins a block."""
+    ends = (token.end for token in context.lookahead if token.kind in _STATEMENT_ENDS)
+    return next(ends, context.lookahead[-1].end)
+
+
+def _skip_statement(parser: ParserState, context: ErrorContext, base: int) -> int:
+    """Drop the statement that began after entry `base` and skip the rest; returns its end."""
     token, inside = context.lookahead[0], len(_opened(parser.stack[base + 1 :]))
     if token.kind == END:
         state_count, closing = context.closing_tokens()
         del parser.stack[state_count:]
         parser.stream.push_back(closing)
-        return
+        return token.end
     del parser.stack[base + 1 :]
     if token.kind != "RBRACE" or inside or not context.open_braces:
         text = context.source.text
         parser.recent_tokens.append(parser.stream.skip_statement(inside, _keywords(parser), text))
+    return parser.recent_tokens[-1].end if parser.recent_tokens else token.start
 
 
 def _skip_trailing_text(
@@ -144,7 +181,8 @@ def _skip_trailing_text(
     if context.lookahead[0].kind != END:
         last, harmless = parser.stream.skip_until(_keywords(parser))
         parser.recent_tokens.append(last)
-    _report(parser, context, trailing_text(first, last, harmless))
+    repair = trailing_text(first, last, harmless)
+    _report(parser, context, repair, first.start, last.end)
 
 
 def _keywords(parser: ParserState) -> frozenset[str]:

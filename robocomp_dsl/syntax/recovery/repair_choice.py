@@ -13,6 +13,7 @@ from robocomp_dsl.syntax.codes import syntax as codes
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
 from robocomp_dsl.syntax.recovery import repair_identifiers as words
+from robocomp_dsl.syntax.recovery import repair_operands as operands
 from robocomp_dsl.syntax.recovery import repair_punctuation as signs
 from robocomp_dsl.syntax.recovery import repair_tokens as whole
 from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token
@@ -55,6 +56,7 @@ def _proposals(context: ErrorContext, item: list[Token], keep: int) -> Iterator[
     yield from signs.missing_semicolon(context)
     yield from signs.commented_semicolon(context)
     yield from signs.earlier_semicolon(context, item, keep)
+    yield from operands.missing_operand_before_keyword(context, item, keep)
     yield from signs.arrow(context, accepted)
     yield from words.quoted_identifier(context, accepted)
     yield from words.interface_file_suffix(context)
@@ -63,7 +65,7 @@ def _proposals(context: ErrorContext, item: list[Token], keep: int) -> Iterator[
     yield from words.open_bracket(context, accepted)
     yield from words.type_first(context, accepted)
     yield from words.invalid_name(context, accepted)
-    yield from words.missing_name(context, accepted)
+    yield from operands.missing_operand(context, accepted)
     yield from words.foreign_modifier(context, item, keep)
     yield from _block(context, [], 0)
     yield from _at_statement_start(context, item, keep)
