@@ -8,13 +8,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
+from robocomp_dsl.check.follow_on import discard_follow_on_errors
 from robocomp_dsl.check.workspace.loaded import transitive_errors
 from robocomp_dsl.check.workspace.source_cache import Parsed, Parser
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.source import Source, UnreadableSource
 from robocomp_dsl.syntax.codes import file as form
-from robocomp_dsl.syntax.follow_on import discard_follow_on_errors
 from robocomp_dsl.syntax.parse import parse_bdsl, parse_cdsl, parse_ddsl, parse_pdsl
 
 if TYPE_CHECKING:  # start-up time: modules are imported in the functions that need them

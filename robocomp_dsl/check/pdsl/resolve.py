@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 from robocomp_dsl.check.codes import parameters as codes
 from robocomp_dsl.check.doc_comments import documentation_of, plain
+from robocomp_dsl.check.follow_on import discard_follow_on_errors
 from robocomp_dsl.check.literals import OutOfRange, TypeMismatch, as_float, as_int, join_names
 from robocomp_dsl.check.names.duplicates import unique_by_name
 from robocomp_dsl.check.pdsl.rules import check_group, check_parameter
@@ -20,7 +21,6 @@ from robocomp_dsl.model.parameter import PATH, Kind, Parameter, ParameterSet
 from robocomp_dsl.model.types import Literal
 from robocomp_dsl.syntax.ast import pdsl as ast
 from robocomp_dsl.syntax.ast.base import Name, Number
-from robocomp_dsl.syntax.follow_on import discard_follow_on_errors
 
 KINDS = {
     "string": Kind.STRING,

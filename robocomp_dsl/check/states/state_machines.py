@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from robocomp_dsl.check.follow_on import discard_follow_on_errors
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.statemachine import StateMachine
 from robocomp_dsl.syntax.ast import innermodel, smdsl
-from robocomp_dsl.syntax.follow_on import discard_follow_on_errors
 from robocomp_dsl.syntax.parse import parse_scxml, parse_smdsl
 
 

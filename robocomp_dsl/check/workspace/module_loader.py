@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from robocomp_dsl.check.codes import names as codes
+from robocomp_dsl.check.follow_on import discard_follow_on_errors
 from robocomp_dsl.check.idsl.resolve import resolve_idsl
 from robocomp_dsl.check.idsl.rules import check_idsl_rules
 from robocomp_dsl.check.names.import_scope import ImportScope, Tree
@@ -27,7 +28,6 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.interface import Module
 from robocomp_dsl.source import UnreadableSource
 from robocomp_dsl.syntax.ast.base import Import, QualifiedName
-from robocomp_dsl.syntax.follow_on import discard_follow_on_errors
 from robocomp_dsl.syntax.parse import DEFINITIONS, parse_idsl
 
 MAX_DEPTH = 50

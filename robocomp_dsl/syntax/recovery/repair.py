@@ -22,6 +22,7 @@ class Repair(ValueRecord):
 
     At least `required` of the following tokens must be accepted. `is_certain`: what was meant is
     known, so the statement is checked further. `declares`: a declaration remains without a name.
+    `since`: where the faulty text begins if it is before the statement.
     The other fields are the diagnostic: `edits` are its fix; an empty message means "expected …,
     found …".
     """
@@ -41,10 +42,9 @@ class Repair(ValueRecord):
     required: int = 3
     is_certain: bool = False
     declares: bool = False
+    since: int = -1
 
-    def report(
-        self, findings: FileDiagnostics, expected: str, uncertain: UncertainText | None
-    ) -> None:
+    def report(self, findings: FileDiagnostics, expected: str, uncertain: UncertainText) -> None:
         """Add the diagnostic; `expected` is the default message."""
         findings.add(
             self.code,

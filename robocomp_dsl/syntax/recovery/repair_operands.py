@@ -7,6 +7,7 @@ repairs, the most likely first. A placeholder takes the place of what is missing
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import takewhile
 
 from robocomp_dsl.syntax.codes import syntax as codes
 from robocomp_dsl.syntax.grammar.grammar_file import END
@@ -19,6 +20,8 @@ _BACK = 3
 
 _PLACEHOLDERS = {"ID": "?", "STRING": '""', "NUMBER": "1"}
 _NOUNS = {"ID": "a name", "STRING": 'a "string"', "NUMBER": "a number"}
+
+_STATEMENT_ENDS = ("_SEMI", "LBRACE", "RBRACE")
 
 _DECLARING = frozenset(
     (
@@ -62,25 +65,59 @@ def _missing(
     back: int = 0,
 ) -> Iterator[Repair]:
     """A placeholder before the next token; `back` of the next tokens were read already."""
-    token, at = context.lookahead[0], context.previous.end
+    token, before_it = context.lookahead[0], context.previous
     if token.kind == "STRAY":
         return
-    for kind, text in _PLACEHOLDERS.items():
-        if kind not in accepted or token.kind == kind:
-            continue
-        behind = context.lookahead[:back]
+    begins = not before and before_it.kind in _STATEMENT_ENDS
+    at = token.start if begins and token.kind != END else before_it.end
+    missing = [kind for kind in _PLACEHOLDERS if kind in accepted and kind != token.kind]
+    place = f"before {quote_token(token)}" if begins else f"after {quote_token(before_it)}"
+    is_clear = len(missing) == 1 and before_it.kind != "NUMBER"
+    for kind in missing:
         yield Repair(
             codes.UNEXPECTED,
             token.start if token.kind != END else at,
             token.end if token.kind != END else at,
-            f"{_NOUNS[kind]} is missing after {quote_token(context.previous)}",
-            replacement=(*before, Token(kind, text, at, at), *behind),
+            f"{_NOUNS[kind]} is missing {place}" if is_clear else "",
+            replacement=(
+                *before,
+                Token(kind, _PLACEHOLDERS[kind], at, at),
+                *context.lookahead[:back],
+            ),
             keep=keep,
-            declares=_declares(context, before),
+            declares=declares_name(before or (before_it,)),
         )
 
 
-def _declares(context: ErrorContext, before: Sequence[Token]) -> bool:
-    """Whether the missing operand is the name of a declaration."""
-    first = before[0] if before else context.previous
-    return first.text.lower() in _DECLARING or context.previous.text.lower() in _DECLARING
+def declares_name(before: Sequence[Token]) -> bool:
+    """Whether a name behind these tokens of a statement is that of a declaration."""
+    return bool(before) and not _DECLARING.isdisjoint(
+        (before[0].text.lower(), before[-1].text.lower())
+    )
+
+
+def missing_type(
+    context: ErrorContext, item: Sequence[Token], accepted: Sequence[str]
+) -> Iterator[Repair]:
+    """`rate 50 [Hz];` without `float`: the type of a parameter, as its default shows it."""
+    token, at = context.lookahead[0], context.previous.end
+    if context.tables.language != "pdsl" or len(item) != 1 or "FLOAT_TYPE" not in accepted:
+        return
+    rest = list(takewhile(lambda token: token.kind not in _STATEMENT_ENDS, context.lookahead))
+    if token.kind == "STRING":
+        word = "string"
+    elif token.kind == "NUMBER" or token.text == ":":
+        is_whole = all(t.text.lstrip("+-").isdecimal() for t in rest if t.kind == "NUMBER")
+        has_unit = any(t.kind == "BRACKETED" for t in rest)
+        word = "int" if is_whole and not has_unit else "float"
+    else:
+        return
+    yield Repair(
+        codes.UNEXPECTED,
+        token.start,
+        token.end,
+        f"`{word}` is missing after {quote_token(context.previous)}",
+        title=f"add `{word}`",
+        edits=((at, at, f" {word}"),),
+        replacement=(Token(f"{word.upper()}_TYPE", word, at, at),),
+    )
