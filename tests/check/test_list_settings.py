@@ -36,8 +36,6 @@ def deployment(folder: Path, body: str) -> Deployment:
 def test_settings_of_lists_are_written_for_the_command_line(tmp_path: Path) -> None:
     written = "set weights[0] = 2; set weights = {1, 2.5}; set on = true;"
     written += ' set names = {a, "b, \\"c\\""};'
-        'set weights[0] = 2; set weights = {1, 2.5}; set names = {a, "b, \\"c\\""}; set on = true;'
-    )
     (instance,) = deployment(tmp_path, f"component arm {{ {written} }};").instances
     assert format_settings(instance) == (
         "weights=[1.0, 2.5]",
