@@ -18,6 +18,7 @@ from robocomp_dsl.syntax.recovery import repair_tokens as whole
 from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair
 from robocomp_dsl.syntax.recovery.repair_bridge import bridge_mistakes
+from robocomp_dsl.syntax.recovery.repair_earlier_keyword import misspelled_earlier_keyword
 
 _CLOSED = ("RBRACE", "_SEMI")
 
@@ -65,6 +66,7 @@ def _proposals(context: ErrorContext, item: list[Token], keep: int) -> Iterator[
     yield from words.invalid_name(context, accepted)
     yield from words.missing_name(context, accepted)
     yield from words.foreign_modifier(context, item, keep)
+    yield from misspelled_earlier_keyword(context, item, keep)
     yield from _block(context, [], 0)
     yield from _at_statement_start(context, item, keep)
     yield from signs.wrong_bracket(context, accepted)
