@@ -33,7 +33,7 @@ def parse(
     parser = ParserState(tables, builder, findings)
     stack, trail, take = parser.stack, parser.recent_tokens, parser.stream.take
     actions, words = tables.actions, tables.keyword_terminals
-    resting = tables.item_states if incremental else frozenset()
+    resting = tables.item_states
     token = take()
     while True:
         row = actions[stack[-1][0]]
@@ -46,8 +46,12 @@ def parse(
             parser.reduce(-1 - action, token.start)
             if token.kind == END and stack[-1][0] == tables.accept:
                 return stack[-1][1]
-            if stack[-1][0] in resting and incremental:
-                token = incremental.at_item(parser, token)
+            if stack[-1][0] in resting:
+                if findings.is_closed and not findings.is_truncated:
+                    parser.truncate(token.start)
+                    token = take()
+                elif incremental:
+                    token = incremental.at_item(parser, token)
         else:
             trail.append(token)
             stack.append((action, token, token.start, token.end))

@@ -29,6 +29,12 @@ class TokenStream:
     def __init__(self, tokens: Iterator[Token]) -> None:
         self._tokens = tokens
         self._ahead: deque[Token] = deque()
+        self.read_end = 0
+        """Offset up to which error recovery has read the text beyond the tokens."""
+
+    def note_read(self, offset: int) -> None:
+        """Recovery has read the text up to `offset`: what it decides depends on that."""
+        self.read_end = max(self.read_end, offset)
 
     def take(self) -> Token:
         """The next token."""

@@ -47,12 +47,11 @@ class Builder:
 
     A method gets the span of its rule and the children that the grammar keeps. `ITEM_NAMES` maps
     the items of a block to names for messages; `docs` maps offsets to the doc comments before them.
-    `has_block` becomes true with the top-level block. `ITEMS_ARE_INDEPENDENT`: an item depends on
-    its own text only, so it can be reused while that is unchanged.
+    `has_block` becomes true with the top-level block. An item depends on its own text only, so it
+    can be reused while that is unchanged.
     """
 
     ITEM_NAMES: ClassVar[Mapping[str, str]] = {}
-    ITEMS_ARE_INDEPENDENT: ClassVar = True
 
     def __init__(self, findings: FileDiagnostics) -> None:
         self.findings = findings
