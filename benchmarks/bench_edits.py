@@ -45,9 +45,7 @@ class Editor:
         self._version = 0
         self._published = asyncio.Event()
         self._session = Session(environ={})
-        self._scheduler = DiagnosticsScheduler(
-            self._session, lambda params: self._published.set()
-        )
+        self._scheduler = DiagnosticsScheduler(self._session, lambda params: self._published.set())
 
     async def open(self) -> None:
         """Open the file and wait for its findings."""

@@ -108,3 +108,99 @@ def test_more_uses_than_notes_are_counted(tmp_path: Path) -> None:
     (error,) = find_errors(tmp_path / "x.idsl", text.replace("struct Point3D", "struct Pont3D"))
     assert len(error.notes) == 8
     assert error.help == "6 more uses are not shown"
+
+
+BODY = "Component body { Communications { implements Laser; }; };"
+REFLEX = (
+    "Component reflex { Communications { requires Laser as first; requires Laser as second; }; };"
+)
+DDSL = """\
+import "body.cdsl";
+import "reflex.cdsl";
+Deployment demo
+{
+    host desk { address "localhost"; labels gpu; };
+    component hand : body on desk;
+    component foot : body on label gpu { after hand; };
+    group arm
+    {
+        component body;
+        export Laser from body as Range;
+    };
+    component reflex;
+    connect reflex.first -> hand.Laser;
+    connect reflex.second -> arm.Range;
+};
+"""
+
+
+@pytest.fixture
+def deployment(tmp_path: Path) -> Path:
+    for name, text in (("body", BODY), ("reflex", REFLEX)):
+        (tmp_path / f"{name}.cdsl").write_text(f'import "Laser.idsl";\n{text}\n')
+    return tmp_path / "demo.ddsl"
+
+
+DDSL_CASES = [
+    ("component hand", "component hnad", "`hnad` is declared, but `hand` is used", ["hand"] * 2),
+    ("host desk", "host deskk", "`deskk` is declared, but `desk` is used", ["desk"]),
+    ("labels gpu", "labels gppu", "`gppu` is declared, but `gpu` is used", ["gpu"]),
+    ("group arm", "group armm", "`armm` is declared, but `arm` is used", ["arm"]),
+    ("as Range", "as Ragne", "`Ragne` is declared, but `Range` is used", ["Range"]),
+    ("component reflex", "component refllex", "component `refllex` is not declared by any import",
+     ["reflex", "reflex", "reflex"]),
+    ("connect reflex.first", "connect reflx.first", "there is no component `reflx`", []),
+    ("-> hand.Laser", "-> hnad.Laser", "there is no component `hnad`", []),
+    ("Laser from body", "Lasr from body", "`arm-body` has no port `Lasr`", ["body"]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("right", "wrong", "message", "uses"), DDSL_CASES)
+def test_misspelled_name_of_deployment_is_one_error(
+    right: str, wrong: str, message: str, uses: list[str], deployment: Path
+) -> None:
+    assert not find_errors(deployment, DDSL)
+    changed = DDSL.replace(right, wrong, 1)
+    (error,) = find_errors(deployment, changed)
+    assert error.message.startswith(message)
+    assert [note.span.text for note in error.notes][-len(uses) or len(error.notes) :] == uses
+    assert error.fix
+    assert apply(changed, error.fix) == DDSL
+
+
+DEVICES = """\
+import "body.cdsl";
+Deployment demo
+{
+    component body
+    {
+        device arm : control_board;
+        device hand : cartesian;
+        device zeroing : calibrator;
+        attach zeroing to arm;
+        attach hand to arm;
+        on startup level 5 calibrate arm by zeroing;
+        on startup level 6 attach hand;
+    };
+};
+"""
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "uses"),
+    [
+        ("device hand", "device haand", 2),
+        ("device zeroing", "device zeroig", 2),
+        ("attach zeroing to arm", "attach zeroing to amr", 0),
+        ("attach hand to", "attach hadn to", 0),
+    ],
+)
+def test_misspelled_device_is_one_error(
+    right: str, wrong: str, uses: int, deployment: Path
+) -> None:
+    assert not find_errors(deployment, DEVICES)
+    changed = DEVICES.replace(right, wrong, 1)
+    (error,) = find_errors(deployment, changed)
+    assert len(error.notes) == uses
+    assert error.fix
+    assert apply(changed, error.fix) == DEVICES

@@ -15,10 +15,9 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from itertools import chain
 
+from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.diagnostics import (
     Diagnostic,
-    Edit,
-    Fix,
     Note,
     Report,
     Severity,
@@ -47,7 +46,7 @@ def report_misspelled_declarations(report: Report) -> None:
     for (source, text), group in [*uses.items()][:MAX_NAMES]:
         if source not in words:
             words[source] = count_words(source.text)
-        declaration = _misspelled(text, source, group, words[source])
+        declaration = _misspelled(text, source, group, words[source], report)
         if declaration:
             found.setdefault(declaration, []).append(group)
     for declaration, groups in found.items():
@@ -61,7 +60,7 @@ def count_words(text: str) -> Counter[str]:
 
 
 def _misspelled(
-    text: str, source: Source, group: Sequence[Diagnostic], words: Counter[str]
+    text: str, source: Source, group: Sequence[Diagnostic], words: Counter[str], report: Report
 ) -> Span | None:
     """The only declaration in `source` that the uses of `text` may refer to and no other name."""
     spans = chain.from_iterable(use.unknown.declared for use in group if use.unknown)
@@ -73,7 +72,7 @@ def _misspelled(
     if len(candidates) != 1:
         return None
     declaration = candidates[0]
-    if len({use.span for use in group}) > 1:
+    if len({use.span for use in group}) > 1 or _fixed_at(declaration, text, report):
         return declaration
     from robocomp_dsl.check.names.word_plausibility import is_more_plausible  # noqa: PLC0415
 
@@ -86,9 +85,8 @@ def _move(declaration: Span, group: Sequence[Diagnostic], report: Report) -> Non
     text = first.unknown.text if first.unknown else ""
     spans = sorted({use.span for use in group}, key=lambda span: span.start)
     notes = tuple(Note(span, f"`{text}` is used here") for span in spans[:MAX_NOTES])
-    edit = Edit(declaration, text)
     at_declaration = [d for d in report if d.span == declaration]
-    same = next((d for d in at_declaration if d.fix and d.fix.edits == (edit,)), None)
+    same = _fixed_at(declaration, text, report)
     warnings = [d for d in at_declaration if d.severity is not Severity.ERROR]
     if same is not None:
         moved = same.replace(notes=(*same.notes, *notes))
@@ -100,9 +98,15 @@ def _move(declaration: Span, group: Sequence[Diagnostic], report: Report) -> Non
             label=f"did you mean `{text}`?",
             notes=notes,
             help=_more(spans),
-            fix=Fix(f"change to `{text}`", (edit,)),
+            fix=replace_fix(declaration, text),
         )
     report.replace([*group, *warnings, *([same] if same else [])], moved)
+
+
+def _fixed_at(declaration: Span, text: str, report: Report) -> Diagnostic | None:
+    """The finding at a declaration whose fix changes its name to `text`."""
+    fix = replace_fix(declaration, text)
+    return next((d for d in report if d.span == declaration and d.fix == fix), None)
 
 
 def _more(spans: Iterable[Span]) -> str:
