@@ -99,4 +99,3 @@ class IncrementalParse:
     def _new_region(self) -> TextRegion:
         self._findings.region = piece = TextRegion(self._findings.source)
         return piece
-

@@ -9,7 +9,8 @@ from __future__ import annotations
 from robocomp_dsl.syntax.codes import file as codes
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
-from robocomp_dsl.syntax.grammar.lr_state import ParserState, StackEntry
+from robocomp_dsl.syntax.grammar.lr_state import ParserState
+from robocomp_dsl.syntax.grammar.reductions import StackEntry
 from robocomp_dsl.syntax.grammar.token_stream import Unrecoverable
 from robocomp_dsl.syntax.recovery.error_context import ErrorContext, describe_expected, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair, panic_mode, trailing_text
