@@ -137,7 +137,7 @@ def _settings(parameters: InferredParameters) -> Iterator[str]:
         listed = not isinstance(parameter, ScalarParameter)
         texts = parameter.texts if isinstance(parameter, ScalarParameter) else {}
         rows = ", ".join(f"{value!r}: {python_string(text)}" for value, text in texts.items())
-        yield f'(({key}), {python_string(".".join(path))}, {listed}, {{{rows}}})'
+        yield f"(({key}), {python_string('.'.join(path))}, {listed}, {{{rows}}})"
 
 
 def _proxies(component: Component, called: PythonNames) -> Iterator[tuple[str, str]]:

@@ -24,7 +24,10 @@ def params(**values: Any) -> Any:
     ("values", "expected"),
     [
         ({}, {"Laser.Rate": "0.50", "show": "TRUE", "plain": "2"}),
-        ({"show": False, "plain": False}, {"Laser.Rate": "0.50", "show": "FALSE", "plain": "false"}),
+        (
+            {"show": False, "plain": False},
+            {"Laser.Rate": "0.50", "show": "FALSE", "plain": "false"},
+        ),
         ({"Laser.Rate": 0.75}, {"Laser.Rate": "0.75", "show": "TRUE", "plain": "2"}),
     ],
 )
