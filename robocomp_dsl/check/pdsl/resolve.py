@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 from robocomp_dsl.check.codes import parameters as codes
 from robocomp_dsl.check.doc_comments import documentation_of, plain
+from robocomp_dsl.check.follow_on import discard_follow_on_errors
 from robocomp_dsl.check.literals import TypeMismatch, as_float, as_int, join_names
 from robocomp_dsl.check.names.duplicates import unique_by_name
 from robocomp_dsl.check.pdsl.defaults import resolve_default
@@ -47,6 +48,7 @@ def resolve_pdsl(file: Parsed[ast.File], report: Report) -> ParameterSet | None:
     if tree is None:
         return None
     members = _members(tree.members, report)
+    discard_follow_on_errors(report, file)
     return ParameterSet(tree.name.text, file.source.path, tree.name.span, members, plain(tree.doc))
 
 

@@ -17,6 +17,7 @@ from robocomp_dsl.syntax.codes import syntax as syntax_codes
 from robocomp_dsl.syntax.languages.bracketed import is_length, list_in_brackets
 from robocomp_dsl.syntax.languages.builder import Builder, of_kind, parse_number
 from robocomp_dsl.syntax.languages.parse_source import parse_source
+from robocomp_dsl.syntax.languages.pdsl_ranges import repair_range
 
 _COUNT = re.compile(r"(\d*)(\s*:\s*)?(\d*)")
 _BOUNDS = re.compile(r"(\d+)\s*(?:,|-|\.\.+)\s*(\d+)")
@@ -113,7 +114,7 @@ class PdslBuilder(Builder):
         unit: Unit | None = None
         bounds: ast.Range | None = None
         live: Name | None = None
-        for attribute in attributes:
+        for attribute in repair_range(attributes, self):
             if isinstance(attribute, Unit) and (items := self._list(attribute, kind, count)):
                 self.first_of(default, items, "the default")
                 default = default or items
