@@ -1,4 +1,4 @@
-"""Repairs of lists of values: brackets, which DDSL writes as braces, and a missing comma.
+"""Repairs of lists of values: brackets, which DDSL writes as braces, a missing comma, the place.
 
 In: the context of a syntax error. Out: possible repairs.
 """
@@ -6,7 +6,7 @@ In: the context of a syntax error. Out: possible repairs.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from robocomp_dsl.syntax.codes import syntax as codes
 from robocomp_dsl.syntax.grammar.lexer import Token
@@ -18,12 +18,68 @@ _VALUE = re.compile(
     rf"\s*(?:(?P<STRING>{_STRING})|(?P<NUMBER>[+-]?[\d.][\w.+-]*)|(?P<ID>[A-Za-z_]\w*))\s*(,|\Z)"
 )
 
+_IN_LIST = ("NUMBER", "STRING", "ID", "COMMA")
+_ATTRIBUTES = ("BRACKETED", "NUMBER", "COLON", "LIVE")
+"""Tokens behind which a default in braces is too late."""
 
-def list_mistakes(context: ErrorContext, accepted: list[str]) -> Iterator[Repair]:
+
+def list_mistakes(
+    context: ErrorContext, accepted: list[str], item: Sequence[Token], keep: int
+) -> Iterator[Repair]:
     """All of them; none for languages without lists of values."""
     if context.tables.language in ("pdsl", "ddsl"):
         yield from _list_in_brackets(context, accepted)
         yield from _missing_comma(context, accepted)
+        yield from _late_default(context, item, keep)
+
+
+def _late_default(context: ErrorContext, item: Sequence[Token], keep: int) -> Iterator[Repair]:
+    """`weights[2] float [kg] {1, 2};`: in PDSL a default in braces is written behind the type."""
+    late = _leading_list(context.lookahead)
+    last = _last_of_type(item)
+    if not late or not last or context.previous.kind not in _ATTRIBUTES:
+        return
+    start, end = late[0].start, late[-1].end
+    at = item[last].end
+    text = context.source.text
+    gap = len(text[:start]) - len(text[:start].rstrip())
+    yield Repair(
+        codes.UNEXPECTED,
+        start,
+        end,
+        "the default of a list is written behind the type",
+        title=f"write it behind `{item[last].text}`",
+        edits=((at, at, f" {text[start:end]}"), (start - gap, end, "")),
+        replacement=(*item[: last + 1], *late, *item[last + 1 :]),
+        skip=len(late),
+        keep=keep,
+        required=1,
+    )
+
+
+def _leading_list(tokens: Sequence[Token]) -> list[Token]:
+    """The tokens of a list in braces at the start of `tokens`; empty if there is none."""
+    if not tokens or tokens[0].kind != "LBRACE":
+        return []
+    for index, token in enumerate(tokens):
+        if token.kind == "RBRACE":
+            return list(tokens[: index + 1])
+        if index and token.kind not in _IN_LIST:
+            return []
+    return []
+
+
+def _last_of_type(item: Sequence[Token]) -> int:
+    """The index of the last token of the type of a parameter; 0 if it has a default in braces."""
+    kinds = [token.kind for token in item]
+    last = 2 if kinds[1:2] == ["BRACKETED"] else 1
+    if kinds[:1] != ["ID"] or len(kinds) <= last:
+        return 0
+    if kinds[last] == "LBRACE":
+        if "RBRACE" not in kinds:
+            return 0
+        last = kinds.index("RBRACE")
+    return 0 if kinds[last + 1 : last + 2] == ["LBRACE"] else last
 
 
 def _missing_comma(context: ErrorContext, accepted: list[str]) -> Iterator[Repair]:
