@@ -54,8 +54,23 @@ class Fix(ValueRecord):
     edits: tuple[Edit, ...]
 
 
+class UncertainText(ValueRecord):
+    """What a syntax error leaves uncertain: findings that follow from it are not reported.
+
+    `span` is the statement whose meaning is a guess. `names` are the names in text that was
+    skipped. `declares`: a declaration has no name, so any unknown name may be its name.
+    """
+
+    span: Span
+    names: frozenset[str] = frozenset()
+    declares: bool = False
+
+
 class Diagnostic(ValueRecord):
-    """One finding at one location. `label` is printed beside the carets, `help` below."""
+    """One finding at one location. `label` is printed beside the carets, `help` below.
+
+    `uncertain` is what a syntax error leaves uncertain, None for other findings.
+    """
 
     code: Code
     span: Span
@@ -64,6 +79,7 @@ class Diagnostic(ValueRecord):
     notes: tuple[Note, ...] = ()
     help: str = ""
     fix: Fix | None = None
+    uncertain: UncertainText | None = None
 
     @property
     def severity(self) -> Severity:
@@ -89,9 +105,10 @@ class Report:
         notes: Iterable[Note] = (),
         help: str = "",
         fix: Fix | None = None,
+        uncertain: UncertainText | None = None,
     ) -> None:
         """Add one diagnostic."""
-        diagnostic = Diagnostic(code, span, message, label, tuple(notes), help, fix)
+        diagnostic = Diagnostic(code, span, message, label, tuple(notes), help, fix, uncertain)
         self._diagnostics.setdefault((code.id, span, message), diagnostic)
 
     def add_finding(self, code: Code, finding: Finding, source: Source) -> None:
@@ -104,6 +121,11 @@ class Report:
         """Add diagnostics of another report."""
         for new in diagnostics:
             self._diagnostics.setdefault((new.code.id, new.span, new.message), new)
+
+    def discard(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Remove diagnostics of this report."""
+        for old in diagnostics:
+            self._diagnostics.pop((old.code.id, old.span, old.message), None)
 
     def __iter__(self) -> Iterator[Diagnostic]:
         return iter(self._diagnostics.values())

@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
+from robocomp_dsl.check.follow_on import discard_follow_on_errors
 from robocomp_dsl.check.workspace.loaded import transitive_errors
 from robocomp_dsl.check.workspace.source_cache import Parsed, Parser
 from robocomp_dsl.check.workspace.workspace import Workspace
@@ -56,6 +57,7 @@ def check_cdsl(path: Path, workspace: Workspace, report: Report) -> Component | 
         from robocomp_dsl.check.cdsl.window import check_form  # noqa: PLC0415 - for windows
 
         check_form(file.tree.component.gui, path.parent, workspace, report)
+    discard_follow_on_errors(report, file)
     return resolved.component
 
 
@@ -72,7 +74,11 @@ def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment |
     from robocomp_dsl.check.ddsl.resolve import resolve_ddsl  # noqa: PLC0415
 
     file = parse(path, parse_ddsl, workspace, report)
-    return resolve_ddsl(file, workspace, check_cdsl, report) if file else None
+    if file is None:
+        return None
+    deployment = resolve_ddsl(file, workspace, check_cdsl, report)
+    discard_follow_on_errors(report, file)
+    return deployment
 
 
 def check_bdsl(path: Path, workspace: Workspace, report: Report) -> Bridge | None:
@@ -83,7 +89,9 @@ def check_bdsl(path: Path, workspace: Workspace, report: Report) -> Bridge | Non
     file = parse(path, parse_bdsl, workspace, report)
     if file is None or file.tree.bridge is None:
         return None
-    return resolve_bdsl(file, file.tree.bridge, workspace, report)
+    bridge = resolve_bdsl(file, file.tree.bridge, workspace, report)
+    discard_follow_on_errors(report, file)
+    return bridge
 
 
 def check_state_machine(path: Path, workspace: Workspace, report: Report) -> StateMachine | None:

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from robocomp_dsl.check.codes import names as codes
+from robocomp_dsl.check.follow_on import discard_follow_on_errors
 from robocomp_dsl.check.idsl.resolve import resolve_idsl
 from robocomp_dsl.check.idsl.rules import check_idsl_rules
 from robocomp_dsl.check.names.import_scope import ImportScope, Tree
@@ -120,6 +121,7 @@ class ModuleLoader:
             resolved = resolve_idsl(tree, path, scope, report)
             check_idsl_rules(resolved, report)
             modules.append(resolved.module)
+        discard_follow_on_errors(report, parsed)
         return LoadedModule(parsed, links, tuple(modules), tuple(report))
 
     def import_scope(

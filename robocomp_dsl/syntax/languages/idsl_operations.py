@@ -25,6 +25,7 @@ class TemplateType(Node):
     """`vector<X>`, `map<K, V>`: container syntax of other languages, reported as an error."""
 
     types: tuple[QualifiedName, ...]
+    bound: int = 0
 
     @property
     def is_sequence(self) -> bool:
@@ -53,12 +54,16 @@ class OperationsBuilder(LengthsBuilder):
 
     def template(self, span: Span, *children: Any) -> TemplateType:
         """`vector<X>`; the caller reports it."""
-        return TemplateType(span, of_kind(QualifiedName, children))
+        bound = next((child for child in children if isinstance(child, int)), 0)
+        return TemplateType(span, of_kind(QualifiedName, children), bound)
 
     def inline_template(self, span: Span, template: TemplateType) -> QualifiedName:
         """A template used as a type: IDSL containers are declared with a name."""
         written = re.sub(r"\s+", "", span.text)
-        inside = f"<{', '.join(type_.text for type_ in template.types)}>"
+        arguments = [type_.text for type_ in template.types]
+        if template.bound:
+            arguments.append(str(template.bound))
+        inside = f"<{', '.join(arguments)}>"
         right = f"sequence{inside}" if template.is_sequence else f"dictionary{inside}"
         self.report(
             syntax_codes.TEMPLATE_TYPE,
@@ -147,8 +152,7 @@ class OperationsBuilder(LengthsBuilder):
         )
 
     def _pattern(self, mark: Unit) -> Name:
-        start = mark.span.start + mark.span.text.index(mark.text)
-        word = Name(mark.span.subspan(start, start + len(mark.text)), mark.text)
+        word = Name(self.inside(mark), mark.text)
         self.check_choice(word, PATTERNS, "pattern")
         return word
 
