@@ -33,6 +33,7 @@ module M
     {
         Place find(string name) throws Lost;
         void forget(string name);
+        void meet(string name, out string owner, out Place place);
     };
 };
 """
@@ -64,6 +65,8 @@ CASES = [
     (".idsl", IDSL, "x [m];", "[m] x;", "`[m]` and `x` are in the wrong order"),
     (".idsl", IDSL, "string name;", "name string;", "unknown type `name`"),
     (".idsl", IDSL, "void forget", "viod forget", "unknown type `viod`"),
+    (".idsl", IDSL, "out string owner", "uot string owner", "`uot` is not a keyword"),
+    (".idsl", IDSL, "out Place place", "ouut Place place", "`ouut` is not a keyword"),
     (".smdsl", SMDSL, "on started", "started", "`on` is missing before `started`"),
     (".smdsl", SMDSL, "=> Busy", "=>=> Busy", "`=>` is written twice"),
     (".smdsl", SMDSL, "Idle =>", "=> Idle", "`=>` and `Idle` are in the wrong order"),

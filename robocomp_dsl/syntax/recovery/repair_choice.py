@@ -20,6 +20,7 @@ from robocomp_dsl.syntax.recovery import repair_tokens as whole
 from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair
 from robocomp_dsl.syntax.recovery.repair_bridge import bridge_mistakes
+from robocomp_dsl.syntax.recovery.repair_earlier_keyword import misspelled_earlier_keyword
 from robocomp_dsl.syntax.recovery.repair_lists import list_mistakes
 
 _CLOSED = ("RBRACE", "_SEMI")
@@ -75,6 +76,7 @@ def all_repairs(
     yield from operands.missing_type(context, item, accepted)
     yield from operands.missing_operand(context, accepted)
     yield from words.foreign_modifier(context, item, keep)
+    yield from misspelled_earlier_keyword(context, item, keep)
     yield from _block(context, [], 0)
     yield from _at_statement_start(context, item, keep)
     yield from signs.wrong_bracket(context, accepted)
