@@ -8,6 +8,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
+from robocomp_dsl.check.follow_on import discard_follow_on_errors
+from robocomp_dsl.check.names.misspelled_declarations import report_misspelled_declarations
 from robocomp_dsl.check.workspace.loaded import transitive_errors
 from robocomp_dsl.check.workspace.source_cache import Parsed, Parser
 from robocomp_dsl.check.workspace.workspace import Workspace
@@ -52,10 +54,12 @@ def check_cdsl(path: Path, workspace: Workspace, report: Report) -> Component | 
         return None
     resolved = resolve_cdsl(file, file.tree.component, workspace, report)
     check_cdsl_rules(resolved, report)
+    report_misspelled_declarations(report)
     if file.tree.component.gui:
         from robocomp_dsl.check.cdsl.window import check_form  # noqa: PLC0415 - for windows
 
         check_form(file.tree.component.gui, path.parent, workspace, report)
+    discard_follow_on_errors(report, file)
     return resolved.component
 
 
@@ -64,7 +68,9 @@ def check_pdsl(path: Path, workspace: Workspace, report: Report) -> ParameterSet
     from robocomp_dsl.check.pdsl.resolve import resolve_pdsl  # noqa: PLC0415
 
     file = parse(path, parse_pdsl, workspace, report)
-    return resolve_pdsl(file, report) if file else None
+    parameters = resolve_pdsl(file, report) if file else None
+    report_misspelled_declarations(report)
+    return parameters
 
 
 def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment | None:
@@ -72,7 +78,12 @@ def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment |
     from robocomp_dsl.check.ddsl.resolve import resolve_ddsl  # noqa: PLC0415
 
     file = parse(path, parse_ddsl, workspace, report)
-    return resolve_ddsl(file, workspace, check_cdsl, report) if file else None
+    if file is None:
+        return None
+    deployment = resolve_ddsl(file, workspace, check_cdsl, report)
+    discard_follow_on_errors(report, file)
+    report_misspelled_declarations(report)
+    return deployment
 
 
 def check_bdsl(path: Path, workspace: Workspace, report: Report) -> Bridge | None:
@@ -83,7 +94,10 @@ def check_bdsl(path: Path, workspace: Workspace, report: Report) -> Bridge | Non
     file = parse(path, parse_bdsl, workspace, report)
     if file is None or file.tree.bridge is None:
         return None
-    return resolve_bdsl(file, file.tree.bridge, workspace, report)
+    bridge = resolve_bdsl(file, file.tree.bridge, workspace, report)
+    discard_follow_on_errors(report, file)
+    report_misspelled_declarations(report)
+    return bridge
 
 
 def check_state_machine(path: Path, workspace: Workspace, report: Report) -> StateMachine | None:
@@ -91,10 +105,12 @@ def check_state_machine(path: Path, workspace: Workspace, report: Report) -> Sta
     from robocomp_dsl.check.states.state_machines import MACHINES  # noqa: PLC0415
 
     try:
-        return MACHINES[path.suffix.lower()](path, workspace, report)
+        machine = MACHINES[path.suffix.lower()](path, workspace, report)
     except UnreadableSource as error:
         _report_unreadable(path, error, report)
         return None
+    report_misspelled_declarations(report)
+    return machine
 
 
 def check_innermodel(path: Path, workspace: Workspace, report: Report) -> InnerModel | None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from ipaddress import ip_address
 from pathlib import Path
 
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.devices import Devices
+from robocomp_dsl.model.parameter import Default
 from robocomp_dsl.model.placement import Placement
 from robocomp_dsl.model.types import Literal
 from robocomp_dsl.record import Record, ValueRecord
@@ -120,12 +122,16 @@ class Host(Record):
         """
         if self.ssh_port:
             return False
-        if self.address == THIS_MACHINE:
-            return True
-        try:
-            return ip_address(self.address).is_loopback
-        except ValueError:
-            return False
+        return self.address == THIS_MACHINE or _is_loopback(self.address)
+
+
+@lru_cache(maxsize=1000)
+def _is_loopback(address: str) -> bool:
+    """Whether a text is a loopback address."""
+    try:
+        return ip_address(address).is_loopback
+    except ValueError:
+        return False
 
 
 HERE = Host("", "127.0.0.1")
@@ -158,7 +164,7 @@ class Instance(Record):
     context: str = ""
     config_name: str = ""
     prefix: str = ""
-    settings: tuple[tuple[str, Literal], ...] = ()
+    settings: tuple[tuple[str, Default], ...] = ()
     environment: tuple[tuple[str, str], ...] = ()
     devices: Devices = Devices()
     executable: str = "python3 main.py"

@@ -8,7 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from robocomp_dsl.diagnostics import Code, Diagnostic, Edit, Fix, Note, Report, Severity
+from robocomp_dsl.diagnostics import (
+    Code,
+    Diagnostic,
+    Edit,
+    Fix,
+    Note,
+    Report,
+    Severity,
+    UncertainText,
+)
 from robocomp_dsl.source import Source, Span, TextRegion
 from robocomp_dsl.syntax.codes import file as codes
 
@@ -37,6 +46,16 @@ class FileDiagnostics:
         return self.errors >= LIMIT or self.warnings >= LIMIT
 
     @property
+    def count_before_limit(self) -> int:
+        """How many diagnostics of any kind can follow before `limit_reached`."""
+        return LIMIT - 1 - max(self.errors, self.warnings)
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the diagnostic about the skipped rest of the file has been added."""
+        return self.errors > LIMIT
+
+    @property
     def too_many_errors(self) -> bool:
         """Whether the rest of the file is skipped because of its errors."""
         return self.errors >= LIMIT
@@ -52,6 +71,7 @@ class FileDiagnostics:
         notes: tuple[Note, ...] = (),
         help: str = "",
         fix: Fix | None = None,
+        uncertain: UncertainText | None = None,
     ) -> None:
         """Add a diagnostic about the characters [start, end)."""
         span = self.source.span(start, end)
@@ -67,7 +87,9 @@ class FileDiagnostics:
             if self.warnings > LIMIT:
                 self._close(span, "warnings; further warnings of this file are not listed")
                 return
-        self.report.add(code, span, message, label=label, notes=notes, help=help, fix=fix)
+        self.report.add(
+            code, span, message, label=label, notes=notes, help=help, fix=fix, uncertain=uncertain
+        )
 
     def replay(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Add diagnostics of an earlier version about unchanged text."""

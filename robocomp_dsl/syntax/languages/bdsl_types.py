@@ -51,9 +51,7 @@ class TypeBuilder(Builder):
         return None
 
     def _bracketed_number(self, bracket: Unit) -> Number:
-        start = bracket.span.start + bracket.span.text.index(bracket.text)
-        span = bracket.span.subspan(start, start + len(bracket.text))
-        return Number(span, int(bracket.text))
+        return Number(self.inside(bracket), int(bracket.text))
 
     def named(self, span: Span, name: QualifiedName, operation: Name | None) -> ast.TypeRef:
         """`Module::Interface.operation`."""
