@@ -24,8 +24,8 @@ from robocomp_dsl.runtime.component.invalid_setting import InvalidSetting
 from robocomp_dsl.runtime.component.process_exit import exit_now, exit_with
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import ComponentSpec
-from robocomp_dsl.runtime.component.user_errors import TRACEBACK_VARIABLE
-from robocomp_dsl.runtime.errors import MiddlewareError, MonitorError, WindowError
+from robocomp_dsl.runtime.component.user_errors import TRACEBACK_VARIABLE, log_failure
+from robocomp_dsl.runtime.errors import MiddlewareError, MonitorError, WindowError, WorkerError
 from robocomp_dsl.runtime.middleware.registry import UnknownMiddleware
 from robocomp_dsl.runtime.parameters import ConfigError
 
@@ -126,7 +126,9 @@ def _create_runner(
         return Runner(component, params, settings, supervision=supervision, hook_thread=hook_thread)
     except (MiddlewareError, MonitorError, UnknownMiddleware, WindowError) as error:
         log.error("%s", error)  # noqa: TRY400 - the message is all there is to know
-        return None
+    except WorkerError as error:
+        log_failure(f"the constructor of {error}", error.__cause__ or error)
+    return None
 
 
 def _configuration(

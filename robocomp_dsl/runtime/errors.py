@@ -120,5 +120,9 @@ class WindowError(Exception):
     """The window of a component cannot be created; the message has the file."""
 
 
+class WorkerError(Exception):
+    """The constructor of the user's class raised; `__cause__` is what it raised."""
+
+
 class NotImplementedOperation(NotImplementedError):
     """The component declares the interface but has no method for this operation."""

@@ -42,6 +42,7 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.monitor_setup import load_monitors, monitored_ports
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA
+from robocomp_dsl.runtime.errors import MiddlewareError, MonitorError, WindowError, WorkerError
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.parameters import Parameters
 from robocomp_dsl.runtime.time.clock_factory import ComponentHandle, create_clock
@@ -107,6 +108,18 @@ class Runner:
             used={name for port in self.spec.ports for name in self.middlewares_of(port)},
             is_visible=bool(supervision and supervision.in_group),
         )
+        try:
+            self._create(component, clock, supervision)
+        except BaseException:
+            # Threads of the middleware would keep the process alive.
+            self.ports.close()
+            raise
+
+    def _create(
+        self, component: type[Component], clock: Clock | None, supervision: Supervision | None
+    ) -> None:
+        """The worker and what runs it."""
+        settings = self.settings
         owner = ComponentHandle(self.name, self.spec, self.fail, self._is_event_driven)
         self._clock_binding = create_clock(
             settings.clock.with_prefix(settings.prefix), owner, self.ports
@@ -167,7 +180,12 @@ class Runner:
     def _create_worker(self, component: type[Component], clock: Clock) -> Component:
         """The user's object, with the attributes that `Component` declares."""
         add_user_folder(component)
-        worker = component()
+        try:
+            worker = component()
+        except (MiddlewareError, MonitorError, WindowError):
+            raise
+        except Exception as error:
+            raise WorkerError(component.__name__) from error
         worker.name = self.name
         worker.params = self.params
         worker.config_file = self.settings.config
