@@ -65,10 +65,23 @@ class UnknownName(ValueRecord):
     declared: tuple[Span, ...]
 
 
+class UncertainText(ValueRecord):
+    """What a syntax error leaves uncertain: findings that follow from it are not reported.
+
+    `span` is the statement whose meaning is a guess. `names` are the names in text that was
+    skipped. `declares`: a declaration has no name, so any unknown name may be its name.
+    """
+
+    span: Span
+    names: frozenset[str] = frozenset()
+    declares: bool = False
+
+
 class Diagnostic(ValueRecord):
     """One finding at one location. `label` is printed beside the carets, `help` below.
 
     `unknown` is the name that is not declared, if the finding reports one.
+    `uncertain` is what a syntax error leaves uncertain, None for other findings.
     """
 
     code: Code
@@ -79,6 +92,7 @@ class Diagnostic(ValueRecord):
     help: str = ""
     fix: Fix | None = None
     unknown: UnknownName | None = None
+    uncertain: UncertainText | None = None
 
     @property
     def severity(self) -> Severity:
@@ -105,9 +119,12 @@ class Report:
         help: str = "",
         fix: Fix | None = None,
         unknown: UnknownName | None = None,
+        uncertain: UncertainText | None = None,
     ) -> None:
         """Add one diagnostic."""
-        diagnostic = Diagnostic(code, span, message, label, tuple(notes), help, fix, unknown)
+        diagnostic = Diagnostic(
+            code, span, message, label, tuple(notes), help, fix, unknown, uncertain
+        )
         self._diagnostics.setdefault((code.id, span, message), diagnostic)
 
     def add_finding(self, code: Code, finding: Finding, source: Source) -> None:
@@ -121,10 +138,14 @@ class Report:
         for new in diagnostics:
             self._diagnostics.setdefault((new.code.id, new.span, new.message), new)
 
+    def discard(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Remove diagnostics of this report."""
+        for old in diagnostics:
+            self._diagnostics.pop((old.code.id, old.span, old.message), None)
+
     def replace(self, removed: Iterable[Diagnostic], added: Diagnostic) -> None:
         """Put one diagnostic in the place of others."""
-        for old in removed:
-            self._diagnostics.pop((old.code.id, old.span, old.message), None)
+        self.discard(removed)
         self.extend((added,))
 
     def __iter__(self) -> Iterator[Diagnostic]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from robocomp_dsl.check.names.misspelled_declarations import report_misspelled_declarations
+from robocomp_dsl.check.causes import report_causes
 from robocomp_dsl.check.workspace.loaded import transitive_errors
 from robocomp_dsl.check.workspace.source_cache import Parsed, Parser
 from robocomp_dsl.check.workspace.workspace import Workspace
@@ -53,11 +53,11 @@ def check_cdsl(path: Path, workspace: Workspace, report: Report) -> Component | 
         return None
     resolved = resolve_cdsl(file, file.tree.component, workspace, report)
     check_cdsl_rules(resolved, report)
-    report_misspelled_declarations(report)
     if file.tree.component.gui:
         from robocomp_dsl.check.cdsl.window import check_form  # noqa: PLC0415 - for windows
 
         check_form(file.tree.component.gui, path.parent, workspace, report)
+    report_causes(report, file)
     return resolved.component
 
 
@@ -66,9 +66,7 @@ def check_pdsl(path: Path, workspace: Workspace, report: Report) -> ParameterSet
     from robocomp_dsl.check.pdsl.resolve import resolve_pdsl  # noqa: PLC0415
 
     file = parse(path, parse_pdsl, workspace, report)
-    parameters = resolve_pdsl(file, report) if file else None
-    report_misspelled_declarations(report)
-    return parameters
+    return resolve_pdsl(file, report) if file else None
 
 
 def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment | None:
@@ -76,8 +74,10 @@ def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment |
     from robocomp_dsl.check.ddsl.resolve import resolve_ddsl  # noqa: PLC0415
 
     file = parse(path, parse_ddsl, workspace, report)
-    deployment = resolve_ddsl(file, workspace, check_cdsl, report) if file else None
-    report_misspelled_declarations(report)
+    if file is None:
+        return None
+    deployment = resolve_ddsl(file, workspace, check_cdsl, report)
+    report_causes(report, file)
     return deployment
 
 
@@ -90,7 +90,7 @@ def check_bdsl(path: Path, workspace: Workspace, report: Report) -> Bridge | Non
     if file is None or file.tree.bridge is None:
         return None
     bridge = resolve_bdsl(file, file.tree.bridge, workspace, report)
-    report_misspelled_declarations(report)
+    report_causes(report, file)
     return bridge
 
 
@@ -99,12 +99,10 @@ def check_state_machine(path: Path, workspace: Workspace, report: Report) -> Sta
     from robocomp_dsl.check.states.state_machines import MACHINES  # noqa: PLC0415
 
     try:
-        machine = MACHINES[path.suffix.lower()](path, workspace, report)
+        return MACHINES[path.suffix.lower()](path, workspace, report)
     except UnreadableSource as error:
         _report_unreadable(path, error, report)
         return None
-    report_misspelled_declarations(report)
-    return machine
 
 
 def check_innermodel(path: Path, workspace: Workspace, report: Report) -> InnerModel | None:

@@ -8,7 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from robocomp_dsl.diagnostics import Code, Diagnostic, Edit, Fix, Note, Report, Severity
+from robocomp_dsl.diagnostics import (
+    Code,
+    Diagnostic,
+    Edit,
+    Fix,
+    Note,
+    Report,
+    Severity,
+    UncertainText,
+)
 from robocomp_dsl.source import Source, Span, TextRegion
 from robocomp_dsl.syntax.codes import file as codes
 
@@ -62,6 +71,7 @@ class FileDiagnostics:
         notes: tuple[Note, ...] = (),
         help: str = "",
         fix: Fix | None = None,
+        uncertain: UncertainText | None = None,
     ) -> None:
         """Add a diagnostic about the characters [start, end)."""
         span = self.source.span(start, end)
@@ -77,7 +87,9 @@ class FileDiagnostics:
             if self.warnings > LIMIT:
                 self._close(span, "warnings; further warnings of this file are not listed")
                 return
-        self.report.add(code, span, message, label=label, notes=notes, help=help, fix=fix)
+        self.report.add(
+            code, span, message, label=label, notes=notes, help=help, fix=fix, uncertain=uncertain
+        )
 
     def replay(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Add diagnostics of an earlier version about unchanged text."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from robocomp_dsl.check.causes import report_causes
 from robocomp_dsl.check.codes import parameters as codes
 from robocomp_dsl.check.doc_comments import documentation_of, plain
 from robocomp_dsl.check.literals import OutOfRange, TypeMismatch, as_float, as_int, join_names
@@ -48,6 +49,7 @@ def resolve_pdsl(file: Parsed[ast.File], report: Report) -> ParameterSet | None:
     if tree is None:
         return None
     members = _members(tree.members, report)
+    report_causes(report, file)
     return ParameterSet(tree.name.text, file.source.path, tree.name.span, members, plain(tree.doc))
 
 

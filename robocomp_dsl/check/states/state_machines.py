@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from robocomp_dsl.check.causes import report_causes
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
@@ -25,6 +26,7 @@ def smdsl_machine(file: Parsed[smdsl.File], report: Report) -> StateMachine | No
     if resolved is None:
         return None
     check_smdsl_rules(*resolved, report)
+    report_causes(report, file)
     return resolved[0]
 
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from robocomp_dsl.check.causes import report_causes
 from robocomp_dsl.check.codes import names as codes
 from robocomp_dsl.check.idsl.resolve import resolve_idsl
 from robocomp_dsl.check.idsl.rules import check_idsl_rules
 from robocomp_dsl.check.names.import_scope import ImportScope, Tree
-from robocomp_dsl.check.names.misspelled_declarations import report_misspelled_declarations
 from robocomp_dsl.check.names.suggest import ImportSuggestion, suggest_import
 from robocomp_dsl.check.workspace.import_resolver import ImportResolver
 from robocomp_dsl.check.workspace.imports import (
@@ -121,7 +121,7 @@ class ModuleLoader:
             resolved = resolve_idsl(tree, path, scope, report)
             check_idsl_rules(resolved, report)
             modules.append(resolved.module)
-        report_misspelled_declarations(report)
+        report_causes(report, parsed)
         return LoadedModule(parsed, links, tuple(modules), tuple(report))
 
     def import_scope(

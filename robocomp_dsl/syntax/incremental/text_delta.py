@@ -60,7 +60,12 @@ class TextDelta:
             diagnostic.fix.title,
             tuple(Edit(place(edit.span), edit.text) for edit in diagnostic.fix.edits),
         )
-        return diagnostic.replace(span=place(diagnostic.span), notes=notes, fix=fix)
+        uncertain = diagnostic.uncertain and diagnostic.uncertain.replace(
+            span=place(diagnostic.uncertain.span)
+        )
+        return diagnostic.replace(
+            span=place(diagnostic.span), notes=notes, fix=fix, uncertain=uncertain
+        )
 
 
 def _common_prefix_length(first: str, second: str) -> int:

@@ -77,13 +77,6 @@ class Builder:
         span = Span(self.findings.region, token.start, token.end)
         return Unit(span, token.text[1:-1].strip())
 
-    def inside(self, bracket: Unit) -> Span:
-        """The range of the text between brackets; all of it if the parser swapped the token."""
-        start = bracket.span.start + bracket.span.text.find(bracket.text)
-        if start < bracket.span.start:
-            return bracket.span
-        return bracket.span.subspan(start, start + len(bracket.text))
-
     def import_file(self, span: Span, path: Text) -> Import:
         """`import "path";`."""
         return Import(span, path)
@@ -91,6 +84,12 @@ class Builder:
     def qualified(self, span: Span, first: Name, second: Name | None) -> QualifiedName:
         """`Name` or `Module::Name`."""
         return QualifiedName(span, second, first) if second else QualifiedName(span, first)
+
+    def inside(self, bracket: Unit) -> Span:
+        """The range of the text in the brackets; all of it if a repair moved the token."""
+        at = bracket.span.text.find(bracket.text)
+        start = bracket.span.start + at
+        return bracket.span.subspan(start, start + len(bracket.text)) if at >= 0 else bracket.span
 
     def lone_semicolon(self, span: Span) -> None:
         """A `;` without a statement."""

@@ -119,7 +119,8 @@ class InstancesBuilder(DevicesBuilder):
                     f"expected the index of a group, found `{index.text}`",
                     help="the first group is `[0]`",
                 )
-        return Name(span, "".join(span.text.split()))
+        written = (f".{p.text}" if isinstance(p, Name) else f"[{p.text}]" for p in parts)
+        return Name(span, "".join(written).removeprefix("."))
 
     def environment(self, span: Span, name: Name, value: Name | Text | Number) -> ast.Environment:
         """`env NAME = value;`."""
@@ -142,9 +143,10 @@ class InstancesBuilder(DevicesBuilder):
         """`after a, b;`."""
         return BlockSetting(span, "after", tuple(self.without_trailing_comma(names)))
 
-    def policy(self, span: Span, *_words: Name) -> Name:
+    def policy(self, span: Span, word: Name) -> Name:
         """`on-failure` (three tokens) or one word."""
-        return Name(span, "".join(span.text.split()))
+        is_one_word = span.start == word.span.start
+        return Name(span, word.text if is_one_word else f"on-{word.text}")
 
     def restart(
         self, span: Span, policy: Name, most: Number | None, window: Duration | None

@@ -12,6 +12,7 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.codes import file as codes
 from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
+from robocomp_dsl.syntax.follow_on import about_uncertain_text
 from robocomp_dsl.syntax.grammar.parser import parse
 from robocomp_dsl.syntax.grammar.tables import load
 from robocomp_dsl.syntax.languages.builder import Builder
@@ -77,6 +78,7 @@ def parse_source(language: str, builder: type[Builder], source: Source, report: 
             " of rcmanager, yarpmanager and yarprobotinterface",
         )
     else:
+        own.discard(about_uncertain_text(own))
         report.extend(own)
     return file
 

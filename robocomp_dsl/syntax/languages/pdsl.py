@@ -16,6 +16,7 @@ from robocomp_dsl.syntax.codes import legacy as legacy_codes
 from robocomp_dsl.syntax.codes import syntax as syntax_codes
 from robocomp_dsl.syntax.languages.builder import Builder, of_kind, parse_number
 from robocomp_dsl.syntax.languages.parse_source import parse_source
+from robocomp_dsl.syntax.languages.pdsl_ranges import repair_range
 
 _COUNT = re.compile(r"(\d*)(\s*:\s*)?(\d*)")
 _FLAG = re.compile(r"[A-Z]")
@@ -99,7 +100,7 @@ class PdslBuilder(Builder):
         unit: Unit | None = None
         bounds: ast.Range | None = None
         live: Name | None = None
-        for attribute in attributes:
+        for attribute in repair_range(attributes, self):
             if isinstance(attribute, Unit) and _NO_UNIT.match(attribute.text):
                 self._numbers_in_brackets(attribute, name)
             elif isinstance(attribute, Unit):

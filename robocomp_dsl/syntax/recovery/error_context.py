@@ -56,6 +56,12 @@ class ErrorContext(ValueRecord):
                 return count + WINDOW
         return count
 
+    def states_after(self, keep: int, tokens: Iterable[Token]) -> list[int] | None:
+        """The first `keep` states and those after the tokens; None if one is not accepted."""
+        states = list(self.states[:keep])
+        accepted = all(self._shift(states, token.kind) for token in tokens)
+        return states if accepted else None
+
     def lookahead_score(self, put: Sequence[str] = (), skip: int = 0) -> int:
         """How many of the next tokens are accepted after `put` replaces the first `skip`.
 

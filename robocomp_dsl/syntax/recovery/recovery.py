@@ -6,16 +6,29 @@ parser in a state in which parsing can continue.
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
+from itertools import takewhile
+
+from robocomp_dsl.diagnostics import Report, UncertainText
+from robocomp_dsl.syntax.ast.node import Node
 from robocomp_dsl.syntax.codes import file as codes
+from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
 from robocomp_dsl.syntax.grammar.grammar_file import END
-from robocomp_dsl.syntax.grammar.lexer import Token
+from robocomp_dsl.syntax.grammar.lexer import Lexer, Token
 from robocomp_dsl.syntax.grammar.lr_state import ParserState, StackEntry
 from robocomp_dsl.syntax.grammar.token_stream import Unrecoverable
 from robocomp_dsl.syntax.recovery.error_context import ErrorContext, describe_expected, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair, panic_mode, trailing_text
-from robocomp_dsl.syntax.recovery.repair_choice import choose_repair
+from robocomp_dsl.syntax.recovery.repair_choice import all_repairs, choose_repair
+from robocomp_dsl.syntax.recovery.repair_statements import token_before_semicolon
 
 LOOK_AHEAD = 24
+_STATEMENT_ENDS = ("_SEMI", "LBRACE", "RBRACE", END)
+_NAME = re.compile(r"[A-Za-z_]\w*")
+MAX_STATEMENT = 1000
+"""Characters of a statement that is read again together with the next one."""
+
 MAX_SUPPRESSED = 500
 """Consecutive follow-on errors after which the rest of the file is skipped."""
 
@@ -32,22 +45,35 @@ def recover(parser: ParserState) -> None:
 
 
 def _correct_or_drop(parser: ParserState) -> None:
+    base, item = _statement(parser)
+    # Complete, but not reduced because of the unexpected token behind it.
+    if item and item[-1].kind == "_SEMI":
+        context = _error_context(parser)
+        if repair := choose_repair(context, token_before_semicolon(item, base + 1)):
+            _report(parser, context, repair, item[0].start, _end_of_statement(context, ()))
+            _apply(parser, repair)
+            return
     _complete_statement(parser)
-    stack, restarts = parser.stack, parser.tables.item_states
-    base = max(i for i, entry in enumerate(stack) if entry[0] in restarts)
-    begun = len(stack) > base + 1
-    item = _tokens_since(parser, stack[base + 1][2]) if begun else []
+    base, item = _statement(parser)
+    begun = len(parser.stack) > base + 1
     context = _error_context(parser)
     outside = parser.builder.has_block and not context.open_braces and not context.is_single_stray()
     if outside and (not begun or (item and item[0].kind == "ID")):
         _skip_trailing_text(parser, context, item, base)
         return
-    repair = choose_repair(context, item, base + 1)
-    _report(parser, context, repair or panic_mode(context, item))
+    before = _statement_before(parser, base, (item or context.lookahead)[0].start)
+    repair = choose_repair(context, all_repairs(context, before, item, base + 1))
+    start = (item or context.lookahead)[0].start
     if repair:
+        _report(parser, context, repair, start, _end_of_statement(context, item))
         _apply(parser, repair)
     else:
-        _skip_statement(parser, context, base)
+        repair = panic_mode(context, item)
+        end = start
+        try:
+            end = _skip_statement(parser, context, base)
+        finally:
+            _report(parser, context, repair, start, end)
     if parser.findings.too_many_errors and not parser.findings.is_truncated:
         parser.truncate(context.lookahead[0].start)
 
@@ -61,15 +87,36 @@ def _complete_statement(parser: ParserState) -> None:
         parser.reduce(-1 - following.pop(), parser.stack[-1][3])
 
 
+def _statement(parser: ParserState) -> tuple[int, list[Token]]:
+    """The stack entry before the statement, and the tokens of the statement so far."""
+    stack, restarts = parser.stack, parser.tables.item_states
+    base = max(i for i, entry in enumerate(stack) if entry[0] in restarts)
+    begun = len(stack) > base + 1
+    return base, _tokens_since(parser, stack[base + 1][2]) if begun else []
+
+
 def _tokens_since(parser: ParserState, start: int) -> list[Token]:
     """The tokens shifted since the one that begins at `start`, if they are still stored.
 
-    Empty for an item that contains a block: such an item is not parsed again.
+    Empty for an item that contains a block with statements: such an item is not parsed again.
     """
     item = [token for token in parser.recent_tokens if token.start >= start]
-    if any(token.kind == "RBRACE" for token in item):
+    kinds = [token.kind for token in item]
+    if "RBRACE" in kinds and "_SEMI" in kinds[: kinds.index("RBRACE")]:
         return []
     return item if item and item[0].start == start else []
+
+
+def _statement_before(parser: ParserState, base: int, end: int) -> list[Token]:
+    """The tokens of the statement that ends before `end`; none if it is long or has a block."""
+    items = parser.stack[base][1]
+    last = items[-1] if isinstance(items, list) and items else None
+    start = last.span.start if isinstance(last, Node) else end
+    source = parser.findings.source
+    if not 0 < end - start <= MAX_STATEMENT:
+        return []
+    lexer = Lexer(source, parser.tables, FileDiagnostics(source, Report()))
+    return list(takewhile(lambda token: token.start < end, lexer.tokens(start)))
 
 
 def _error_context(parser: ParserState) -> ErrorContext:
@@ -94,8 +141,13 @@ def _opened(entries: list[StackEntry]) -> list[Token]:
     return opened
 
 
-def _report(parser: ParserState, context: ErrorContext, repair: Repair) -> None:
-    """Report the error, unless no token was accepted since the last one (a follow-on error)."""
+def _report(
+    parser: ParserState, context: ErrorContext, repair: Repair, start: int, end: int
+) -> None:
+    """Report the error, unless no token was accepted since the last one (a follow-on error).
+
+    [start, end) is the statement with the error.
+    """
     cut = context.lookahead[0].kind == END and parser.findings.is_truncated
     if parser.last_reported_end == context.previous.end:
         parser.suppressed += 1
@@ -106,9 +158,23 @@ def _report(parser: ParserState, context: ErrorContext, repair: Repair) -> None:
     if not parser.suppressed and not cut:
         expected = describe_expected(context, parser.builder.ITEM_NAMES)
         repair.report(
-            parser.findings, f"expected {expected}, found {quote_token(context.lookahead[0])}"
+            parser.findings,
+            f"expected {expected}, found {quote_token(context.lookahead[0])}",
+            _uncertain_text(context, repair, start, max(start, end)),
         )
     parser.last_reported_end = -1 if repair.replacement else context.previous.end
+
+
+def _uncertain_text(context: ErrorContext, repair: Repair, start: int, end: int) -> UncertainText:
+    """What is uncertain about the statement [start, end) after the repair."""
+    if repair.is_certain:
+        return UncertainText(context.source.span(start, start))
+    is_skipped = not (repair.replacement or repair.skip)
+    if 0 <= repair.since < start:
+        start = repair.since
+    text = context.source.text[start:end] if is_skipped else ""
+    names = frozenset(_NAME.findall(text))
+    return UncertainText(context.source.span(start, end), names, repair.declares)
 
 
 def _apply(parser: ParserState, repair: Repair) -> None:
@@ -121,18 +187,30 @@ def _apply(parser: ParserState, repair: Repair) -> None:
     parser.stream.push_back(repair.replacement)
 
 
-def _skip_statement(parser: ParserState, context: ErrorContext, base: int) -> None:
-    """Drop the statement that began after entry `base` and skip the rest of it."""
+def _end_of_statement(context: ErrorContext, item: Sequence[Token]) -> int:
+    """The end of the next token that ends the statement or begins a block."""
+    kinds = [token.kind for token in item]
+    depth = kinds.count("LBRACE") - kinds.count("RBRACE")
+    for token in context.lookahead:
+        if token.kind in _STATEMENT_ENDS and (token.kind != "RBRACE" or depth <= 0):
+            return token.end
+        depth -= token.kind == "RBRACE"
+    return context.lookahead[-1].end
+
+
+def _skip_statement(parser: ParserState, context: ErrorContext, base: int) -> int:
+    """Drop the statement that began after entry `base` and skip the rest; returns its end."""
     token, inside = context.lookahead[0], len(_opened(parser.stack[base + 1 :]))
     if token.kind == END:
         state_count, closing = context.closing_tokens()
         del parser.stack[state_count:]
         parser.stream.push_back(closing)
-        return
+        return token.end
     del parser.stack[base + 1 :]
     if token.kind != "RBRACE" or inside or not context.open_braces:
         text = context.source.text
         parser.recent_tokens.append(parser.stream.skip_statement(inside, _keywords(parser), text))
+    return parser.recent_tokens[-1].end if parser.recent_tokens else token.start
 
 
 def _skip_trailing_text(
@@ -144,7 +222,8 @@ def _skip_trailing_text(
     if context.lookahead[0].kind != END:
         last, harmless = parser.stream.skip_until(_keywords(parser))
         parser.recent_tokens.append(last)
-    _report(parser, context, trailing_text(first, last, harmless))
+    repair = trailing_text(first, last, harmless)
+    _report(parser, context, repair, first.start, last.end)
 
 
 def _keywords(parser: ParserState) -> frozenset[str]:

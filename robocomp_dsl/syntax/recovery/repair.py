@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from robocomp_dsl.diagnostics import Code, Note
+from robocomp_dsl.diagnostics import Code, Note, UncertainText
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.syntax.codes import legacy as legacy_codes
 from robocomp_dsl.syntax.codes import syntax as syntax_codes
@@ -20,8 +20,11 @@ from robocomp_dsl.syntax.recovery.error_context import ErrorContext
 class Repair(ValueRecord):
     """Replace the next `skip` tokens by `replacement`, after dropping all but `keep` states.
 
-    At least `required` of the following tokens must be accepted. The other fields are the
-    diagnostic: `edits` are its fix; an empty message means "expected …, found …".
+    At least `required` of the following tokens must be accepted. `is_certain`: what was meant is
+    known, so the statement is checked further. `declares`: a declaration remains without a name.
+    `since`: where the faulty text begins if it is before the statement.
+    The other fields are the diagnostic: `edits` are its fix; an empty message means "expected …,
+    found …".
     """
 
     code: Code
@@ -37,8 +40,11 @@ class Repair(ValueRecord):
     skip: int = 0
     keep: int = 0
     required: int = 3
+    is_certain: bool = False
+    declares: bool = False
+    since: int = -1
 
-    def report(self, findings: FileDiagnostics, expected: str) -> None:
+    def report(self, findings: FileDiagnostics, expected: str, uncertain: UncertainText) -> None:
         """Add the diagnostic; `expected` is the default message."""
         findings.add(
             self.code,
@@ -49,6 +55,7 @@ class Repair(ValueRecord):
             help=self.help,
             notes=self.notes,
             fix=findings.fix(self.title, *self.edits) if self.edits else None,
+            uncertain=uncertain,
         )
 
 

@@ -6,14 +6,16 @@ None.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from robocomp_dsl.diagnostics import Note
 from robocomp_dsl.syntax.codes import syntax as codes
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
 from robocomp_dsl.syntax.recovery import repair_identifiers as words
+from robocomp_dsl.syntax.recovery import repair_operands as operands
 from robocomp_dsl.syntax.recovery import repair_punctuation as signs
+from robocomp_dsl.syntax.recovery import repair_statements as statements
 from robocomp_dsl.syntax.recovery import repair_tokens as whole
 from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair
@@ -23,15 +25,10 @@ from robocomp_dsl.syntax.recovery.repair_earlier_keyword import misspelled_earli
 _CLOSED = ("RBRACE", "_SEMI")
 
 
-def choose_repair(context: ErrorContext, item: list[Token], keep: int) -> Repair | None:
-    """The best repair, or None.
-
-    `item` are the tokens since the start of the statement, which began with `keep` states.
-    """
-    if context.nested_module(item):
-        return None
+def choose_repair(context: ErrorContext, repairs: Iterable[Repair]) -> Repair | None:
+    """The best of the repairs, the most likely first; None if none helps."""
     best, best_progress = None, -1
-    for repair in _proposals(context, item, keep):
+    for repair in repairs:
         progress = _progress(context, repair)
         if progress > best_progress:
             best, best_progress = repair, progress
@@ -47,15 +44,25 @@ def _progress(context: ErrorContext, repair: Repair) -> int:
     return min(repair.skip + behind, WINDOW) if behind >= repair.required else -1
 
 
-def _proposals(context: ErrorContext, item: list[Token], keep: int) -> Iterator[Repair]:
-    """All possible repairs, the most likely first."""
+def all_repairs(
+    context: ErrorContext, before: Sequence[Token], item: Sequence[Token], keep: int
+) -> Iterator[Repair]:
+    """All possible repairs, the most likely first.
+
+    `before` are the tokens of the previous statement. `item` are the tokens since the start of the
+    statement, which began with `keep` states.
+    """
+    if context.nested_module(item):
+        return
     accepted = context.accepted_terminals()
+    yield from statements.token_behind_semicolon(context, before, item, keep)
     yield from bridge_mistakes(context, accepted)
     yield from whole.doubled_token(context, item, keep)
     yield from whole.doubled_sign(context, accepted)
     yield from signs.missing_semicolon(context)
     yield from signs.commented_semicolon(context)
     yield from signs.earlier_semicolon(context, item, keep)
+    yield from operands.missing_operand_before_keyword(context, item, keep)
     yield from signs.arrow(context, accepted)
     yield from words.quoted_identifier(context, accepted)
     yield from words.interface_file_suffix(context)
@@ -64,7 +71,8 @@ def _proposals(context: ErrorContext, item: list[Token], keep: int) -> Iterator[
     yield from words.open_bracket(context, accepted)
     yield from words.type_first(context, accepted)
     yield from words.invalid_name(context, accepted)
-    yield from words.missing_name(context, accepted)
+    yield from operands.missing_type(context, item, accepted)
+    yield from operands.missing_operand(context, accepted)
     yield from words.foreign_modifier(context, item, keep)
     yield from misspelled_earlier_keyword(context, item, keep)
     yield from _block(context, [], 0)
@@ -85,7 +93,9 @@ def _proposals(context: ErrorContext, item: list[Token], keep: int) -> Iterator[
     yield from whole.missing_keyword(context)
 
 
-def _at_statement_start(context: ErrorContext, item: list[Token], keep: int) -> Iterator[Repair]:
+def _at_statement_start(
+    context: ErrorContext, item: Sequence[Token], keep: int
+) -> Iterator[Repair]:
     """The mistake is at the start of the statement: a keyword that was read as a name."""
     if not 0 < len(item) < WINDOW:
         return
@@ -98,7 +108,7 @@ def _at_statement_start(context: ErrorContext, item: list[Token], keep: int) -> 
     yield from (repair.replace(required=1) for repair in _block(start, item, keep))
 
 
-def _block(context: ErrorContext, item: list[Token], keep: int) -> Iterator[Repair]:
+def _block(context: ErrorContext, item: Sequence[Token], keep: int) -> Iterator[Repair]:
     """A block was not closed before a statement that is not allowed in it."""
     token, (start, end) = context.lookahead[0], context.error_range()
     if token.kind not in context.tables.keyword_terminals and token.kind != END:

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_dsl.diagnostics import nearest
 from robocomp_dsl.syntax.codes import syntax as codes
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
-from robocomp_dsl.syntax.recovery.error_context import ErrorContext, quote_token
+from robocomp_dsl.syntax.recovery.error_context import ErrorContext
 from robocomp_dsl.syntax.recovery.repair import Repair
 from robocomp_dsl.syntax.recovery.repair_punctuation import IDENTIFIER
 
@@ -94,6 +94,7 @@ def keyword(context: ErrorContext, accepted: list[str]) -> Iterator[Repair]:
         replacement=(Token(texts[meant], meant, token.start, token.end),),
         skip=1,
         required=1,
+        is_certain=True,
     )
 
 
@@ -115,10 +116,11 @@ def _in_two_words(context: ErrorContext, texts: Mapping[str, str]) -> Iterator[R
         replacement=(Token(texts[meant], meant, first.start, second.end),),
         skip=2,
         required=1,
+        is_certain=True,
     )
 
 
-def foreign_modifier(context: ErrorContext, item: list[Token], keep: int) -> Iterator[Repair]:
+def foreign_modifier(context: ErrorContext, item: Sequence[Token], keep: int) -> Iterator[Repair]:
     """`in float x`: a modifier of another language before a type, which was read as the type."""
     if context.tables.language != "idsl" or len(item) < 2:
         return
@@ -136,6 +138,7 @@ def foreign_modifier(context: ErrorContext, item: list[Token], keep: int) -> Ite
         replacement=(*item[:-2], name),
         keep=keep,
         required=1,
+        is_certain=True,
     )
 
 
@@ -160,6 +163,7 @@ def unquoted_string(context: ErrorContext, accepted: list[str]) -> Iterator[Repa
             replacement=(Token("STRING", right, token.start, run.end()),),
             skip=_tokens_before(context, run.end()),
             required=1,
+            is_certain=True,
         )
 
 
@@ -185,6 +189,7 @@ def quoted_identifier(context: ErrorContext, accepted: list[str]) -> Iterator[Re
         replacement=(Token(kind, inside, token.start, token.end),),
         skip=1,
         required=1,
+        is_certain=True,
     )
 
 
@@ -206,6 +211,7 @@ def interface_file_suffix(context: ErrorContext) -> Iterator[Repair]:
         edits=((before.end, end, ""),),
         skip=_tokens_before(context, end),
         required=1,
+        is_certain=True,
     )
 
 
@@ -226,6 +232,7 @@ def open_bracket(context: ErrorContext, accepted: list[str]) -> Iterator[Repair]
         replacement=(Token("BRACKETED", text, token.start, run.end()),),
         skip=_tokens_before(context, run.end()),
         required=1,
+        is_certain=True,
     )
 
 
@@ -248,6 +255,7 @@ def type_first(context: ErrorContext, accepted: list[str]) -> Iterator[Repair]:
         replacement=(name, Token(token.kind, token.text, name.end, name.end)),
         skip=2,
         required=1,
+        is_certain=True,
     )
 
 
@@ -276,6 +284,7 @@ def invalid_name(context: ErrorContext, accepted: list[str]) -> Iterator[Repair]
         replacement=() if goes_on else (Token("ID", right, run.start(), run.end()),),
         skip=_tokens_before(context, run.end()),
         required=1,
+        is_certain=goes_on,
     )
 
 
@@ -286,20 +295,6 @@ def _to_identifier(word: str) -> str:
     apart = unicodedata.normalize("NFKD", word.replace("ñ", "ny").replace("Ñ", "NY"))
     bare = "".join(char for char in apart if not unicodedata.combining(char))
     return re.sub(r"\W", "_", bare, flags=re.ASCII)
-
-
-def missing_name(context: ErrorContext, accepted: list[str]) -> Iterator[Repair]:
-    """A block without a name."""
-    token = context.lookahead[0]
-    if "ID" not in accepted or token.kind != "LBRACE":
-        return
-    yield Repair(
-        codes.UNEXPECTED,
-        token.start,
-        token.end,
-        f"missing name after {quote_token(context.previous)}",
-        replacement=(Token("ID", "unnamed", token.start, token.start),),
-    )
 
 
 def _tokens_before(context: ErrorContext, end: int) -> int:

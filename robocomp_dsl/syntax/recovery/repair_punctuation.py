@@ -6,7 +6,7 @@ In: the context of a syntax error. Out: possible repairs, the most likely first.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from robocomp_dsl.syntax.codes import legacy as legacy_codes
 from robocomp_dsl.syntax.codes import syntax as syntax_codes
@@ -41,6 +41,7 @@ def missing_semicolon(context: ErrorContext) -> Iterator[Repair]:
         edits=((before.end, before.end, ";"),),
         replacement=(Token("_SEMI", ";", before.end, before.end),),
         required=0 if before.kind == "RBRACE" else 1 if clear else 3,
+        is_certain=True,
     )
 
 
@@ -65,10 +66,11 @@ def commented_semicolon(context: ErrorContext) -> Iterator[Repair]:
         edits=((end, end, comment[1]),),
         replacement=tuple(Token(kind, text, end, end) for kind, text in punctuation),
         required=1,
+        is_certain=True,
     )
 
 
-def earlier_semicolon(context: ErrorContext, item: list[Token], keep: int) -> Iterator[Repair]:
+def earlier_semicolon(context: ErrorContext, item: Sequence[Token], keep: int) -> Iterator[Repair]:
     """A missing `;` before the last accepted identifier, which begins a line."""
     if len(item) < 2 or "\n" not in context.source.text[item[-2].end : item[-1].start]:
         return
@@ -82,6 +84,7 @@ def earlier_semicolon(context: ErrorContext, item: list[Token], keep: int) -> It
         edits=((end, end, ";"),),
         replacement=(*item[:-1], Token("_SEMI", ";", end, end), item[-1]),
         keep=keep,
+        is_certain=True,
     )
 
 
@@ -110,6 +113,7 @@ def wrong_bracket(context: ErrorContext, accepted: list[str]) -> Iterator[Repair
         replacement=(Token("RBRACE", "}", token.start, token.end),),
         skip=1,
         required=1,
+        is_certain=True,
     )
 
 
@@ -150,6 +154,7 @@ def arrow(context: ErrorContext, accepted: list[str]) -> Iterator[Repair]:
         replacement=(Token(texts[right], right, start, run.end()),),
         skip=sum(token.start < run.end() for token in context.lookahead if token.kind != END),
         required=1,
+        is_certain=True,
     )
 
 

@@ -47,6 +47,7 @@ def doubled_token(context: ErrorContext, item: Sequence[Token], keep: int) -> It
             replacement=(*tokens[:index], *tokens[index + 1 : size]) if again else (),
             skip=0 if again else 1,
             keep=keep if again else 0,
+            is_certain=True,
         )
 
 
@@ -64,7 +65,8 @@ def swapped_tokens(context: ErrorContext, item: Sequence[Token], keep: int) -> I
             Token(first.kind, first.text, second.start, second.end),
         )
         right = _swapped_text(context.source.text, first, second)
-        again = index < size
+        # The statement may have been reduced as the wrong tokens demanded.
+        again = bool(item)
         yield Repair(
             codes.UNEXPECTED,
             first.start,
@@ -103,6 +105,7 @@ def doubled_sign(context: ErrorContext, accepted: Sequence[str]) -> Iterator[Rep
             replacement=(Token(kind, text, token.start, token.end),),
             skip=1,
             required=1,
+            is_certain=True,
         )
 
 
