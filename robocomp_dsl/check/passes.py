@@ -25,6 +25,7 @@ if TYPE_CHECKING:  # start-up time: modules are imported in the functions that n
     from robocomp_dsl.model.interface import Module
     from robocomp_dsl.model.parameter import ParameterSet
     from robocomp_dsl.model.statemachine import StateMachine
+    from robocomp_dsl.syntax.ast import bdsl, cdsl, ddsl
 
 Tree = TypeVar("Tree")
 
@@ -51,14 +52,22 @@ def check_cdsl(path: Path, workspace: Workspace, report: Report) -> Component | 
     file = parse(path, parse_cdsl, workspace, report)
     if file is None or file.tree.component is None:
         return None
-    resolved = resolve_cdsl(file, file.tree.component, workspace, report)
-    check_cdsl_rules(resolved, report)
-    if file.tree.component.gui:
-        from robocomp_dsl.check.cdsl.window import check_form  # noqa: PLC0415 - for windows
 
-        check_form(file.tree.component.gui, path.parent, workspace, report)
-    report_causes(report, file)
-    return resolved.component
+    def resolve(file: Parsed[cdsl.File], report: Report) -> Component | None:
+        tree = file.tree.component
+        if tree is None:
+            return None
+        resolved = resolve_cdsl(file, tree, workspace, report)
+        check_cdsl_rules(resolved, report)
+        if tree.gui:
+            from robocomp_dsl.check.cdsl.window import check_form  # noqa: PLC0415 - for windows
+
+            check_form(tree.gui, path.parent, workspace, report)
+        return resolved.component
+
+    component = resolve(file, report)
+    report_causes(report, file, parse_cdsl, resolve)
+    return component
 
 
 def check_pdsl(path: Path, workspace: Workspace, report: Report) -> ParameterSet | None:
@@ -76,8 +85,12 @@ def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment |
     file = parse(path, parse_ddsl, workspace, report)
     if file is None:
         return None
-    deployment = resolve_ddsl(file, workspace, check_cdsl, report)
-    report_causes(report, file)
+
+    def resolve(file: Parsed[ddsl.File], report: Report) -> Deployment | None:
+        return resolve_ddsl(file, workspace, check_cdsl, report)
+
+    deployment = resolve(file, report)
+    report_causes(report, file, parse_ddsl, resolve)
     return deployment
 
 
@@ -89,8 +102,13 @@ def check_bdsl(path: Path, workspace: Workspace, report: Report) -> Bridge | Non
     file = parse(path, parse_bdsl, workspace, report)
     if file is None or file.tree.bridge is None:
         return None
-    bridge = resolve_bdsl(file, file.tree.bridge, workspace, report)
-    report_causes(report, file)
+
+    def resolve(file: Parsed[bdsl.File], report: Report) -> Bridge | None:
+        tree = file.tree.bridge
+        return resolve_bdsl(file, tree, workspace, report) if tree else None
+
+    bridge = resolve(file, report)
+    report_causes(report, file, parse_bdsl, resolve)
     return bridge
 
 

@@ -21,6 +21,7 @@ from robocomp_dsl.model.parameter import PATH, Kind, Parameter, ParameterSet
 from robocomp_dsl.model.types import Literal
 from robocomp_dsl.syntax.ast import pdsl as ast
 from robocomp_dsl.syntax.ast.base import Name, Number
+from robocomp_dsl.syntax.parse import parse_pdsl
 
 KINDS = {
     "string": Kind.STRING,
@@ -45,11 +46,16 @@ _NUMBERS = (Kind.INT, Kind.FLOAT)
 
 def resolve_pdsl(file: Parsed[ast.File], report: Report) -> ParameterSet | None:
     """The parameters of a file; None if it has no parameter block."""
+    parameters = _resolve(file, report)
+    report_causes(report, file, parse_pdsl, _resolve)
+    return parameters
+
+
+def _resolve(file: Parsed[ast.File], report: Report) -> ParameterSet | None:
     tree = file.tree.parameters
     if tree is None:
         return None
     members = _members(tree.members, report)
-    report_causes(report, file)
     return ParameterSet(tree.name.text, file.source.path, tree.name.span, members, plain(tree.doc))
 
 
