@@ -83,7 +83,8 @@ def _ports() -> Iterator[str]:
 def _parameters() -> Iterator[str]:
     for n in range(LINES):
         yield (
-            f"    group{n}\n    {{\n        /** Radius {n}. */\n        radius float 80 [mm] 10:1000;\n"
+            f"    group{n}\n    {{\n        /** Radius {n}. */\n"
+            f"        radius float 80 [mm] 10:1000;\n"
             f'        name string "x";\n        mode {{ fast, slow }} fast;\n    }};\n'
             f"    rate{n} int 3 1:9;"
         )

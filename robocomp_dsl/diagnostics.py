@@ -54,17 +54,6 @@ class Fix(ValueRecord):
     edits: tuple[Edit, ...]
 
 
-class UnknownName(ValueRecord):
-    """The name that a finding reports as not declared.
-
-    `declared` are the names of the declarations in the same file that it could refer to: one of
-    them may be the misspelled name.
-    """
-
-    text: str
-    declared: tuple[Span, ...]
-
-
 class UncertainText(ValueRecord):
     """What a syntax error leaves uncertain: findings that follow from it are not reported.
 
@@ -77,11 +66,22 @@ class UncertainText(ValueRecord):
     declares: bool = False
 
 
+class UnknownName(ValueRecord):
+    """The name that a finding reports as not declared.
+
+    `declared` are the names of the declarations in the same file that it could refer to: one of
+    them may be the misspelled name.
+    """
+
+    text: str
+    declared: tuple[Span, ...]
+
+
 class Diagnostic(ValueRecord):
     """One finding at one location. `label` is printed beside the carets, `help` below.
 
-    `unknown` is the name that is not declared, if the finding reports one.
-    `uncertain` is what a syntax error leaves uncertain, None for other findings.
+    `uncertain` is what a syntax error leaves uncertain, None for other findings. `unknown` is the
+    name that is not declared, if the finding reports one.
     """
 
     code: Code
@@ -91,8 +91,8 @@ class Diagnostic(ValueRecord):
     notes: tuple[Note, ...] = ()
     help: str = ""
     fix: Fix | None = None
-    unknown: UnknownName | None = None
     uncertain: UncertainText | None = None
+    unknown: UnknownName | None = None
 
     @property
     def severity(self) -> Severity:
@@ -118,12 +118,12 @@ class Report:
         notes: Iterable[Note] = (),
         help: str = "",
         fix: Fix | None = None,
-        unknown: UnknownName | None = None,
         uncertain: UncertainText | None = None,
+        unknown: UnknownName | None = None,
     ) -> None:
         """Add one diagnostic."""
         diagnostic = Diagnostic(
-            code, span, message, label, tuple(notes), help, fix, unknown, uncertain
+            code, span, message, label, tuple(notes), help, fix, uncertain, unknown
         )
         self._diagnostics.setdefault((code.id, span, message), diagnostic)
 

@@ -29,12 +29,14 @@ def report_causes(
 
     `resolve` are the checks whose findings `report` contains, beside those of `parser`.
     """
-    report_misspelled_declarations(report)
     if file.diagnostics and any(found.unknown for found in report):
         from robocomp_dsl.check.names.missing_names import report_missing_name  # noqa: PLC0415
 
-        report_missing_name(report, file, lambda source: _recheck(source, parser, resolve))
+        if report_missing_name(report, file, lambda source: _recheck(source, parser, resolve)):
+            report_misspelled_declarations(report)
+            return
     discard_follow_on_errors(report, file)
+    report_misspelled_declarations(report)
 
 
 def _recheck(
@@ -45,5 +47,4 @@ def _recheck(
     if report.has_errors:
         return None
     resolve(Parsed(source, tree, tuple(report)), report)
-    report_misspelled_declarations(report)
     return report

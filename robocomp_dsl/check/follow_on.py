@@ -85,7 +85,7 @@ def _about_lost_text(
         for found in diagnostics
         if found.code.id in omissions
         or (
-            found.code.id in unknown
+            (found.code.id in unknown or found.unknown is not None)
             and (declares or not lost.isdisjoint(_NAME.findall(found.span.text)))
         )
     ]

@@ -54,6 +54,16 @@ def value_for(node: ast.Expression, target: ValueTarget, scope: Scope) -> Expres
         return None
 
 
+def fitted(
+    node: ast.Expression, value: Expression, target: ValueTarget, scope: Scope
+) -> Expression | None:
+    """As `value_for`, if the typed expression `value` of `node` is known."""
+    try:
+        return _enumerator(node, target, scope) or fit(value, target, scope.context)
+    except FaultyExpression:
+        return None
+
+
 def typed(node: ast.Expression, scope: Scope) -> Expression:
     """The typed expression. Raises `FaultyExpression`."""
     return _TYPED[type(node)](node, scope)

@@ -71,14 +71,14 @@ class BridgeScope:
         """What `name` stands for. Raises `FaultyExpression`."""
         word, span = name.text, name.span
         self.context.used_names.add(word)
-        if word not in self.names():
-            self._reject(name)
         if word in self.context.inputs:
             return input_value(span, _declared(self.context.inputs[word]))
         if word in self.context.hubs:
             hub = _declared(self._find_hub(name))
             length = hub.type.count if hub.length is None else hub.length
             return HubValue(span, hub.type, hub.type.unit, length, hub)
+        if word not in self.names():
+            self._reject(name)
         return _now_or_counter(word, span)
 
     def _reject(self, name: Name) -> NoReturn:
@@ -191,8 +191,6 @@ def reply_parameters(operation: Operation) -> tuple[Param, ...]:
 
 def reject_name(name: Name, known: list[str], context: BridgeContext, noun: str = "") -> NoReturn:
     """Report an unknown name; `noun` is what it should be. Raises `FaultyExpression`."""
-    if not context.is_complete:
-        raise FaultyExpression
     report_unknown_name(
         context.report,
         codes.UNKNOWN_BRIDGE_NAME,

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping
 from collections.abc import Set as AbstractSet
 
 from robocomp_dsl.check.codes import devices as codes
+from robocomp_dsl.check.codes.deployment import SETTING_TYPE
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.check.names.duplicates import report_duplicate, unique_by_name
 from robocomp_dsl.check.names.unknown_names import report_unknown_name
@@ -17,7 +18,7 @@ from robocomp_dsl.diagnostics import Note, Report, is_similar
 from robocomp_dsl.model import types
 from robocomp_dsl.model.devices import Action, Attachment, Device, Devices
 from robocomp_dsl.syntax.ast import ddsl as ast
-from robocomp_dsl.syntax.ast.base import Name
+from robocomp_dsl.syntax.ast.base import LiteralList, Name
 
 ATTACHMENT_VERBS = ("attach", "detach")
 CALIBRATOR_VERBS = ("calibrate", "park")
@@ -50,6 +51,10 @@ def _device(tree: ast.Device, report: Report) -> Device:
         earlier = first.setdefault(setting.key.text, setting.key)
         if earlier is not setting.key:
             report_duplicate(setting.key, earlier, "parameter", report)
+            continue
+        if isinstance(setting.value, LiteralList):
+            message = f"`{setting.key.text}` of a device is one value, not a list"
+            report.add(SETTING_TYPE, setting.value.span, message)
             continue
         value = setting.value.text if isinstance(setting.value, Name) else setting.value.value
         parameters[setting.key.text] = value

@@ -7,6 +7,7 @@ inner one and those of the component.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_dsl.check.codes import deployment as deployment_codes
@@ -19,6 +20,8 @@ from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Name, Node
+
+_INDEX = re.compile(r"\[\d+\]\Z")
 
 
 def expand(
@@ -122,9 +125,10 @@ def _check_places(group: ast.Group, definition: ast.Group, report: Report) -> No
 def _merge_settings(
     first: Sequence[ast.Setting], second: Sequence[ast.Setting]
 ) -> tuple[ast.Setting, ...]:
-    """Both, without the settings in `second` that `first` replaces."""
+    """Both, without the settings in `second` that `first` replaces; a list has elements."""
     replaced = {setting.key.text for setting in first}
-    return (*first, *(setting for setting in second if setting.key.text not in replaced))
+    rest = (s for s in second if s.key.text not in replaced)
+    return (*first, *(s for s in rest if _INDEX.sub("", s.key.text) not in replaced))
 
 
 def settings_of_members(

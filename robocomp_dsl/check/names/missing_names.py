@@ -6,6 +6,7 @@ the name and its uses at the syntax error, and without what disappears when the 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Protocol
 
@@ -15,6 +16,9 @@ from robocomp_dsl.syntax.codes import legacy, syntax
 
 Recheck = Callable[[Source], Report | None]
 """What is found in another text of the file; None if that text has syntax errors."""
+
+_ENDS = re.compile(r"[\s;,:)>\].]|\Z")
+"""What follows a name without a blank."""
 
 MAX_NAMES = 3
 """Number of unknown names that are tried."""
@@ -40,21 +44,25 @@ class ParsedText(Protocol):
         """The syntax diagnostics."""
 
 
-def report_missing_name(report: Report, file: ParsedText, recheck: Recheck) -> None:
-    """If a name makes a file correct where its syntax is not, offer to insert it."""
+def report_missing_name(report: Report, file: ParsedText, recheck: Recheck) -> bool:
+    """If a name makes a file correct where its syntax is not, offer to insert it.
+
+    Returns whether it does. Then no finding that remains follows from the syntax error.
+    """
     uses: dict[str, list[Diagnostic]] = {}
     for found in report:
         if found.unknown and found.span.source is file.source:
             uses.setdefault(found.unknown.text, []).append(found)
     places = [found for found in file.diagnostics if found.code.id in _PLACES]
     if not uses or len(places) > MAX_PLACES or len(file.source.text) > MAX_LENGTH:
-        return
+        return False
     for place in places:
         for edit, name in _insertions(place, uses):
             rest = recheck(_edited(file.source, edit))
             if rest is not None and _explains(name, rest, report):
                 _report(place, Fix(f"add `{name}`", (edit,)), uses[name], rest, report)
-                return
+                return True
+    return False
 
 
 def _insertions(
@@ -62,12 +70,25 @@ def _insertions(
 ) -> Iterator[tuple[Edit, str]]:
     """The edits that insert an unknown name at a syntax error, the most frequent name first."""
     span, text = place.span, place.span.source.text
-    offsets = dict.fromkeys((len(text[: span.start].rstrip()), span.start, span.end))
+    offsets = dict.fromkeys((_end_before(span.start, text), span.start, span.end, *_unit(place)))
     for name in sorted(uses, key=lambda name: -len(uses[name]))[:MAX_NAMES]:
         for at in offsets:
             before = " " if text[at - 1 : at].strip() else ""
-            behind = " " if text[at : at + 1].isalnum() else ""
+            behind = "" if _ENDS.match(text, at) else " "
             yield Edit(span.subspan(at, at), f"{before}{name}{behind}"), name
+
+
+def _unit(place: Diagnostic) -> Iterator[int]:
+    """Before the unit that precedes a syntax error: the name precedes it, as in `x [m]`."""
+    text = place.span.source.text
+    end = _end_before(place.span.start, text)
+    if text[end - 1 : end] == "]":
+        yield _end_before(text.rfind("[", 0, end), text)
+
+
+def _end_before(offset: int, text: str) -> int:
+    """The end of the token before `offset`."""
+    return len(text[:offset].rstrip())
 
 
 def _edited(source: Source, edit: Edit) -> Source:
@@ -97,8 +118,8 @@ def _report(
     assert uses[0].unknown  # noqa: S101 - the caller selected such findings
     name = uses[0].unknown.text
     notes = tuple(Note(use.span, f"`{name}` is used here") for use in uses)
-    kept = {_key(found) for found in rest}
-    gone = [d for d in report if d.span.source is place.span.source and _key(d) not in kept]
+    remaining = {_key(found) for found in rest}
+    gone = [d for d in report if d.span.source is place.span.source and _key(d) not in remaining]
     is_named = place.uncertain is not None and place.uncertain.declares
     moved = place.replace(
         code=place.code if place.severity is Severity.ERROR else uses[0].code,

@@ -137,8 +137,14 @@ class ModuleLoader:
         """The scope of the names in `file`."""
         statements = [link.statement for link in links]
 
+        offers: dict[str, ImportSuggestion | None] = {}
+
         def offer(name: QualifiedName) -> ImportSuggestion | None:
-            return suggest_import(name, file.source, statements, self._files, self._search)
+            if name.text not in offers:
+                offers[name.text] = suggest_import(
+                    name, file.source, statements, self._files, self._search
+                )
+            return offers[name.text]
 
         return ImportScope(file, links, offer, earlier)
 

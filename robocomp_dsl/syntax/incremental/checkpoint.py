@@ -57,7 +57,7 @@ class Checkpoint(NamedTuple):
         return self.items is other.items and self.snapshot.states == other.snapshot.states
 
     def moved(self, displacement: int, old: Checkpoint, here: Checkpoint) -> Checkpoint:
-        """This checkpoint after `old`, moved to the same position after `here`."""
+        """A copy that is as far behind `here` as this checkpoint is behind `old`."""
         before, beside = self.previous, self.items is old.items
         return Checkpoint(
             self.start + displacement,

@@ -16,7 +16,8 @@ from robocomp_dsl.syntax.codes import file as codes
 from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Lexer, Token
-from robocomp_dsl.syntax.grammar.lr_state import ParserState, StackEntry
+from robocomp_dsl.syntax.grammar.lr_state import ParserState
+from robocomp_dsl.syntax.grammar.reductions import StackEntry
 from robocomp_dsl.syntax.grammar.token_stream import Unrecoverable
 from robocomp_dsl.syntax.recovery.error_context import ErrorContext, describe_expected, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair, panic_mode, trailing_text

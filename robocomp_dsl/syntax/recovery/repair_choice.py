@@ -21,6 +21,7 @@ from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quo
 from robocomp_dsl.syntax.recovery.repair import Repair
 from robocomp_dsl.syntax.recovery.repair_bridge import bridge_mistakes
 from robocomp_dsl.syntax.recovery.repair_earlier_keyword import misspelled_earlier_keyword
+from robocomp_dsl.syntax.recovery.repair_lists import list_mistakes
 
 _CLOSED = ("RBRACE", "_SEMI")
 
@@ -57,6 +58,7 @@ def all_repairs(
     accepted = context.accepted_terminals()
     yield from statements.token_behind_semicolon(context, before, item, keep)
     yield from bridge_mistakes(context, accepted)
+    yield from list_mistakes(context, accepted)
     yield from whole.doubled_token(context, item, keep)
     yield from whole.doubled_sign(context, accepted)
     yield from signs.missing_semicolon(context)
