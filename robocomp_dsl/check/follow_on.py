@@ -74,6 +74,8 @@ def _about_lost_text(
         deployment.AMBIGUOUS_REQUIREMENT.id,
         deployment.NO_PUBLISHER.id,
         deployment.EMPTY_DEPLOYMENT.id,
+        parameters.LIST_DEFAULT_LENGTH.id,
+        parameters.DEFAULT_IS_LIST.id,
         placement.UNUSED_HOST.id,
         states.NO_INITIAL_STATE.id,
         states.UNREACHABLE_STATE.id,

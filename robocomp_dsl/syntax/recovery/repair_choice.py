@@ -58,7 +58,7 @@ def all_repairs(
     accepted = context.accepted_terminals()
     yield from statements.token_behind_semicolon(context, before, item, keep)
     yield from bridge_mistakes(context, accepted)
-    yield from list_mistakes(context, accepted)
+    yield from list_mistakes(context, accepted, item, keep)
     yield from whole.doubled_token(context, item, keep)
     yield from whole.doubled_sign(context, accepted)
     yield from signs.missing_semicolon(context)
