@@ -68,6 +68,10 @@ def _about_lost_text(
         parameters.PARAMETER_DEFAULT_VALUE.id,
         placement.UNKNOWN_LABEL.id,
         states.UNKNOWN_STATE.id,
+        types.NOT_AN_EXCEPTION.id,
+        types.NOT_A_TYPE.id,
+        devices.DEVICE_ACTION.id,
+        groups.ENVIRONMENT_CONFLICT.id,
     }
     omissions = {
         deployment.UNSATISFIED_REQUIREMENT.id,
@@ -86,6 +90,6 @@ def _about_lost_text(
         if found.code.id in omissions
         or (
             found.code.id in unknown
-            and (declares or not lost.isdisjoint(_NAME.findall(found.span.text)))
+            and (declares or not lost.isdisjoint(_NAME.findall(found.span.text + found.message)))
         )
     ]

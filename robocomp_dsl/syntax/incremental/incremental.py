@@ -86,6 +86,7 @@ class IncrementalParse:
 
     def new_cache(self) -> ParseCache:
         """The cache for the next parse."""
+        self._close_checkpoints()
         checkpoints = [] if self._findings.limit_reached else self._checkpoints
         return ParseCache(self._findings.source, checkpoints, tuple(self._findings.report))
 
@@ -94,6 +95,7 @@ class IncrementalParse:
 
         Returns the next token to parse.
         """
+        self._close_checkpoints()
         if (
             len(machine.stack) > MAX_STACK_DEPTH
             or machine.stream.has_lookahead
@@ -115,6 +117,19 @@ class IncrementalParse:
         except StaleReference:
             return token
         return machine.stream.take()
+
+    def _close_checkpoints(self) -> None:
+        """Close the checkpoints between an error and the earlier text that it depends on.
+
+        No later parse skips from one of them.
+        """
+        since, self._findings.depends_from = self._findings.depends_from, None
+        if since is None:
+            return
+        for number, checkpoint in enumerate(self._checkpoints):
+            if checkpoint.start >= since:
+                snapshot = checkpoint.snapshot._replace(suppressed=-1)
+                self._checkpoints[number] = checkpoint._replace(snapshot=snapshot)
 
     def _new_region(self) -> TextRegion:
         self._findings.region = piece = TextRegion(self._findings.source)

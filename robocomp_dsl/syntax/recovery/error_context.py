@@ -34,7 +34,8 @@ _TERMINAL_NAMES = {
 class ErrorContext(ValueRecord):
     """`lookahead[0]` is the unexpected token, `previous` the last accepted one.
 
-    `open_braces` are the braces that are not closed yet, innermost last.
+    `open_braces` are the braces that are not closed yet, innermost last. `lone_semicolons` are the
+    offsets of superfluous `;` that are apart from the one before.
     """
 
     tables: Tables
@@ -43,6 +44,7 @@ class ErrorContext(ValueRecord):
     previous: Token
     lookahead: Sequence[Token]
     open_braces: Sequence[Token]
+    lone_semicolons: Sequence[int] = ()
 
     def count_accepted(self, kinds: Iterable[str]) -> int:
         """How many of the terminals are accepted, one after the other."""

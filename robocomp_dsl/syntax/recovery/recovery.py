@@ -13,6 +13,7 @@ from itertools import takewhile
 from robocomp_dsl.diagnostics import Report, UncertainText
 from robocomp_dsl.syntax.ast.node import Node
 from robocomp_dsl.syntax.codes import file as codes
+from robocomp_dsl.syntax.codes.legacy import EMPTY_STATEMENT
 from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Lexer, Token
@@ -21,7 +22,6 @@ from robocomp_dsl.syntax.grammar.token_stream import Unrecoverable
 from robocomp_dsl.syntax.recovery.error_context import ErrorContext, describe_expected, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair, panic_mode, trailing_text
 from robocomp_dsl.syntax.recovery.repair_choice import all_repairs, choose_repair
-from robocomp_dsl.syntax.recovery.repair_statements import token_before_semicolon
 
 LOOK_AHEAD = 24
 _STATEMENT_ENDS = ("_SEMI", "LBRACE", "RBRACE", END)
@@ -45,14 +45,6 @@ def recover(parser: ParserState) -> None:
 
 
 def _correct_or_drop(parser: ParserState) -> None:
-    base, item = _statement(parser)
-    # Complete, but not reduced because of the unexpected token behind it.
-    if item and item[-1].kind == "_SEMI":
-        context = _error_context(parser)
-        if repair := choose_repair(context, token_before_semicolon(item, base + 1)):
-            _report(parser, context, repair, item[0].start, _end_of_statement(context, ()))
-            _apply(parser, repair)
-            return
     _complete_statement(parser)
     base, item = _statement(parser)
     begun = len(parser.stack) > base + 1
@@ -127,7 +119,15 @@ def _error_context(parser: ParserState) -> ErrorContext:
         previous=parser.recent_tokens[-1] if parser.recent_tokens else Token("", "", 0, 0),
         lookahead=parser.stream.peek(LOOK_AHEAD),
         open_braces=_opened(parser.stack),
+        lone_semicolons=_lone_semicolons(parser.findings),
     )
+
+
+def _lone_semicolons(findings: FileDiagnostics) -> list[int]:
+    """The offsets of superfluous `;` behind a blank: what is left of `};` without its brace."""
+    text = findings.source.text
+    ends = (found.span.end for found in findings.report if found.code is EMPTY_STATEMENT)
+    return [end - 1 for end in ends if text[max(end - 2, 0)].isspace()]
 
 
 def _opened(entries: list[StackEntry]) -> list[Token]:
@@ -169,15 +169,18 @@ def _uncertain_text(context: ErrorContext, repair: Repair, start: int, end: int)
     """What is uncertain about the statement [start, end) after the repair."""
     if repair.is_certain:
         return UncertainText(context.source.span(start, start))
-    is_skipped = not (repair.replacement or repair.skip)
+    previous, text = context.previous, context.source.text
     if 0 <= repair.since < start:
         start = repair.since
-    text = context.source.text[start:end] if is_skipped else ""
-    names = frozenset(_NAME.findall(text))
+    elif previous.kind == "LBRACE" and start == context.lookahead[0].start:
+        start = text.rfind("\n", 0, previous.start) + 1
+    names = frozenset(_NAME.findall(text, start, end))
     return UncertainText(context.source.span(start, end), names, repair.declares)
 
 
 def _apply(parser: ParserState, repair: Repair) -> None:
+    if repair.since >= 0:
+        parser.findings.depends_from = repair.since
     for _ in range(repair.skip):
         parser.stream.take()
     if repair.keep:
@@ -189,7 +192,7 @@ def _apply(parser: ParserState, repair: Repair) -> None:
 
 def _end_of_statement(context: ErrorContext, item: Sequence[Token]) -> int:
     """The end of the next token that ends the statement or begins a block."""
-    kinds = [token.kind for token in item]
+    kinds = [token.kind for token in item or (context.previous,)]
     depth = kinds.count("LBRACE") - kinds.count("RBRACE")
     for token in context.lookahead:
         if token.kind in _STATEMENT_ENDS and (token.kind != "RBRACE" or depth <= 0):

@@ -6,6 +6,7 @@ repairs, the most likely first. The statement is parsed again with the tokens in
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 
 from robocomp_dsl.syntax.codes import syntax as codes
@@ -13,12 +14,30 @@ from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
 from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair
+from robocomp_dsl.syntax.recovery.repair_operands import declares_name
 
 _BACK = 3
 """A mistake is at most this many tokens before the unexpected one."""
 
-_FREQUENT = ("struct", "interface", "requires", "set")
+_FREQUENT = frozenset(
+    (
+        *("struct", "interface", "requires", "communications", "set", "initial_state"),
+        *("component", "executable", "address"),
+    )
+)
 """Keywords that are suggested first where several fit."""
+
+_ONCE = frozenset(
+    (
+        *("communications", "language", "gui", "period", "threads", "statemachine", "parameters"),
+        *("initial_state", "end_state", "states", "transitions", "middleware", "clock"),
+        *("address", "user", "labels", "config", "context", "from", "prefix", "executable"),
+    )
+)
+"""Keywords of statements that a block has once, in lower case."""
+
+_BLOCK = 4000
+"""Characters of a block in which such a statement is searched."""
 
 _NOT_SUGGESTED = frozenset(("unsigned", "gui", "env"))
 """Keywords before a name that are omitted less often than the name behind them."""
@@ -36,6 +55,8 @@ def doubled_token(context: ErrorContext, item: Sequence[Token], keep: int) -> It
         first, second = tokens[index - 1], tokens[index]
         if first.text != second.text or second.kind == END or (not item and index < size):
             continue
+        if second.kind == "LBRACE" and first.end < second.start:
+            continue  # a block without its keyword
         again = index < size
         yield Repair(
             codes.UNEXPECTED,
@@ -47,7 +68,8 @@ def doubled_token(context: ErrorContext, item: Sequence[Token], keep: int) -> It
             replacement=(*tokens[:index], *tokens[index + 1 : size]) if again else (),
             skip=0 if again else 1,
             keep=keep if again else 0,
-            is_certain=True,
+            is_certain=second.text != ",",
+            declares=second.text == "," and declares_name(item),
         )
 
 
@@ -110,12 +132,13 @@ def doubled_sign(context: ErrorContext, accepted: Sequence[str]) -> Iterator[Rep
 
 
 def missing_first_keyword(
-    context: ErrorContext, item: Sequence[Token], keep: int
+    context: ErrorContext, before: Sequence[Token], item: Sequence[Token], keep: int
 ) -> Iterator[Repair]:
     """`Name { int a; };` without `struct`: the keyword at the start of the statement."""
     if item and len(item) < WINDOW:
         yield from _missing_keyword(
             context.replace(states=context.states[:keep], lookahead=(*item, *context.lookahead)),
+            before,
             item,
             keep,
         )
@@ -125,17 +148,19 @@ def missing_keyword_between_names(context: ErrorContext) -> Iterator[Repair]:
     """`Idle => Busy started;` without `on`: types and states have a capital, other names do not."""
     first, second = context.previous.text[:1], context.lookahead[0].text[:1]
     if first.isupper() and second.islower() and context.lookahead[0].kind == "ID":
-        yield from missing_keyword(context)
+        yield from missing_keyword(context, ())
 
 
-def missing_keyword(context: ErrorContext) -> Iterator[Repair]:
+def missing_keyword(context: ErrorContext, before: Sequence[Token]) -> Iterator[Repair]:
     """`ready 2 s` without `within`: the keyword before the unexpected token."""
-    yield from _missing_keyword(context, (), 0)
+    yield from _missing_keyword(context, before, (), 0)
 
 
-def _missing_keyword(context: ErrorContext, item: Sequence[Token], keep: int) -> Iterator[Repair]:
+def _missing_keyword(
+    context: ErrorContext, before: Sequence[Token], item: Sequence[Token], keep: int
+) -> Iterator[Repair]:
     token = context.lookahead[0]
-    kind = _best_keyword(context)
+    kind = _best_keyword(context, before)
     if not kind or token.kind in context.tables.keyword_terminals:
         return
     word = context.tables.terminal_texts[kind]
@@ -151,16 +176,36 @@ def _missing_keyword(context: ErrorContext, item: Sequence[Token], keep: int) ->
     )
 
 
-def _best_keyword(context: ErrorContext) -> str:
-    """The keyword before the next token with which most of the tokens are accepted, or ""."""
+def _best_keyword(context: ErrorContext, before: Sequence[Token]) -> str:
+    """The keyword before the next token with which most of the tokens are accepted, or "".
+
+    Of several: one that the block does not have yet, if it may have it once; the keyword of the
+    statement `before`; a frequent one.
+    """
     is_name = context.lookahead[0].kind == "ID" and context.tables.language == "cdsl"
     if is_name and len(context.open_braces) < _IN_COMMUNICATIONS:
         return ""
     following = [token.kind for token in context.lookahead]
     texts, words = context.tables.terminal_texts, context.tables.keyword_terminals
+    used, last = _words_of_block(context), before[0].kind if before else ""
+
+    def score(kind: str) -> tuple[int, bool, bool, bool]:
+        word = texts[kind].lower()
+        is_used = word in _ONCE and word in used
+        accepted = context.count_accepted([kind, *following])
+        return accepted, not is_used, kind == last, word in _FREQUENT
+
     scores = {
-        kind: (context.count_accepted([kind, *following]), texts[kind] in _FREQUENT)
+        kind: score(kind)
         for kind in context.accepted_terminals()
         if kind in words and texts.get(kind, "unsigned") not in _NOT_SUGGESTED
     }
     return max(scores, key=lambda kind: scores[kind], default="")
+
+
+def _words_of_block(context: ErrorContext) -> frozenset[str]:
+    """The words around the error in the innermost block, in lower case."""
+    at = context.lookahead[0].start
+    first = context.open_braces[-1].start if context.open_braces else 0
+    near = context.source.text[max(first, at - _BLOCK) : context.lookahead[-1].end]
+    return frozenset(re.findall(r"\w+", near.lower()))
