@@ -101,14 +101,19 @@ def _tokens_since(parser: ParserState, start: int) -> list[Token]:
 
 def _statement_before(parser: ParserState, base: int, end: int) -> list[Token]:
     """The tokens of the statement that ends before `end`; none if it is long or has a block."""
-    items = parser.stack[base][1]
+    items, source = parser.stack[base][1], parser.findings.source
     last = items[-1] if isinstance(items, list) and items else None
-    start = last.span.start if isinstance(last, Node) else end
-    source = parser.findings.source
+    start = last.span.start if isinstance(last, Node) else _last_boundary(source.text, end)
     if not 0 < end - start <= MAX_STATEMENT:
         return []
     lexer = Lexer(source, parser.tables, FileDiagnostics(source, Report()))
     return list(takewhile(lambda token: token.start < end, lexer.tokens(start)))
+
+
+def _last_boundary(text: str, end: int) -> int:
+    """Behind the `;` or brace before the `;` before `end`; maybe one in a comment."""
+    semicolon = text.rfind(";", 0, end)
+    return max(text.rfind(sign, 0, max(semicolon, 0)) for sign in ";{}") + 1
 
 
 def _error_context(parser: ParserState) -> ErrorContext:

@@ -57,9 +57,11 @@ def all_repairs(
     yield from statements.token_behind_semicolon(context, before, item, keep)
     yield from statements.token_before_semicolon(context, before, item, keep)
     yield from bridge_mistakes(context, accepted)
-    if not item and context.lookahead[0].kind != "ID":
+    if not item and not context.lookahead[0].kind.endswith(("ID", "_TYPE")):
+        yield from whole.swapped_tokens(context, item, keep)
         yield from whole.missing_keyword(context, before)
     yield from whole.doubled_token(context, item, keep)
+    yield from whole.name_behind_parenthesis(context, item, keep)
     yield from whole.doubled_sign(context, accepted)
     yield from signs.missing_semicolon(context)
     yield from signs.commented_semicolon(context)
@@ -84,6 +86,8 @@ def all_repairs(
     yield from whole.missing_first_keyword(context, before, item, keep)
     # Missing punctuation is more likely than a surplus identifier, and loses no text.
     if signs.IDENTIFIER.fullmatch(context.lookahead[0].text):
+        if any(token.text == "," for token in context.lookahead[1:2]):
+            yield from whole.swapped_tokens(context, item, keep)
         yield from whole.missing_keyword_between_names(context)
         yield from signs.earlier_punctuation(context, item, keep)
         yield from signs.missing_punctuation(context, accepted)

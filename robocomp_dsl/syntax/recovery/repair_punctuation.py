@@ -205,6 +205,12 @@ def missing_punctuation(context: ErrorContext, accepted: list[str]) -> Iterator[
         )
 
 
+def _closes_list(context: ErrorContext) -> bool:
+    """Whether a `}` follows before the end of the statement."""
+    kinds = (token.kind for token in context.lookahead)
+    return next((kind for kind in kinds if kind in ("RBRACE", "_SEMI", END)), END) == "RBRACE"
+
+
 def earlier_punctuation(
     context: ErrorContext, item: Sequence[Token], keep: int
 ) -> Iterator[Repair]:
@@ -216,7 +222,7 @@ def earlier_punctuation(
         there = context.replace(states=states, previous=item[index - 1], lookahead=item[index:])
         at = item[index - 1].end
         for kind, text in _accepted_punctuation(there, there.accepted_terminals()):
-            if text in _CLOSING:
+            if text in _CLOSING or (text == "{" and not _closes_list(context)):
                 continue
             yield Repair(
                 syntax_codes.MISSING_PUNCTUATION,

@@ -63,8 +63,7 @@ def token_before_semicolon(
     if item or len(before) < 3 or before[-1].kind != "_SEMI" or before[-2].kind != "ID":
         return
     token, semicolon = before[-2:]
-    is_apart = context.source.text[token.end : semicolon.start].isspace()
-    if not is_apart or token.text.lower() in ("true", "false"):
+    if token.end == semicolon.start or token.text.lower() in ("true", "false"):
         return
     if context.states_after(keep, (*before[:-2], semicolon)) is None:
         return

@@ -75,32 +75,51 @@ def doubled_token(context: ErrorContext, item: Sequence[Token], keep: int) -> It
 
 def swapped_tokens(context: ErrorContext, item: Sequence[Token], keep: int) -> Iterator[Repair]:
     """`state count;` instead of `count state;`: two neighbours in the wrong order."""
-    tokens, size = [*item, *context.lookahead], len(item)
+    size = len(item)
     for index in range(size, max(size - _BACK, -1), -1):
-        if index + 1 >= len(tokens) or tokens[index + 1].kind == END:
-            continue
-        first, second = tokens[index : index + 2]
-        if first.kind == second.kind:
-            continue
-        pair = (
-            Token(second.kind, second.text, first.start, first.end),
-            Token(first.kind, first.text, second.start, second.end),
-        )
-        right = _swapped_text(context.source.text, first, second)
-        # The statement may have been reduced as the wrong tokens demanded.
-        again = bool(item)
-        yield Repair(
-            codes.UNEXPECTED,
-            first.start,
-            second.end,
-            f"{quote_token(first)} and {quote_token(second)} are in the wrong order",
-            title=f"write {quote_token(second)} before {quote_token(first)}",
-            edits=((first.start, second.end, right),),
-            replacement=(*tokens[:index], *pair, *tokens[index + 2 : size]) if again else pair,
-            skip=max(index + 2 - size, 0),
-            keep=keep if again else 0,
-            required=WINDOW,
-        )
+        yield from _swapped(context, item, keep, index)
+
+
+def name_behind_parenthesis(
+    context: ErrorContext, item: Sequence[Token], keep: int
+) -> Iterator[Repair]:
+    """`void (stop int after);`: `void` is not the name of the operation."""
+    texts = [token.text for token in item]
+    if context.tables.language == "idsl" and "void" in texts[:-2]:
+        index = texts.index("void") + 1
+        if texts[index] == "(" and item[index + 1].kind == "ID":
+            yield from _swapped(context, item, keep, index)
+
+
+def _swapped(
+    context: ErrorContext, item: Sequence[Token], keep: int, index: int
+) -> Iterator[Repair]:
+    """The tokens `index` and the next one of the statement and what follows, exchanged."""
+    tokens, size = [*item, *context.lookahead], len(item)
+    if index + 1 >= len(tokens) or tokens[index + 1].kind == END:
+        return
+    first, second = tokens[index : index + 2]
+    if first.kind == second.kind:
+        return
+    pair = (
+        Token(second.kind, second.text, first.start, first.end),
+        Token(first.kind, first.text, second.start, second.end),
+    )
+    right = _swapped_text(context.source.text, first, second)
+    # The statement may have been reduced as the wrong tokens demanded.
+    again = bool(item)
+    yield Repair(
+        codes.UNEXPECTED,
+        first.start,
+        second.end,
+        f"{quote_token(first)} and {quote_token(second)} are in the wrong order",
+        title=f"write {quote_token(second)} before {quote_token(first)}",
+        edits=((first.start, second.end, right),),
+        replacement=(*tokens[:index], *pair, *tokens[index + 2 : size]) if again else pair,
+        skip=max(index + 2 - size, 0),
+        keep=keep if again else 0,
+        required=WINDOW,
+    )
 
 
 def _swapped_text(text: str, first: Token, second: Token) -> str:
