@@ -25,6 +25,7 @@ from robocomp_dsl.syntax.recovery.repair_choice import all_repairs, choose_repai
 
 LOOK_AHEAD = 24
 _STATEMENT_ENDS = ("_SEMI", "LBRACE", "RBRACE", END)
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _NAME = re.compile(r"[A-Za-z_]\w*")
 MAX_STATEMENT = 1000
 """Characters of a statement that is read again together with the next one."""
@@ -179,7 +180,8 @@ def _uncertain_text(context: ErrorContext, repair: Repair, start: int, end: int)
         start = repair.since
     elif previous.kind == "LBRACE" and start == context.lookahead[0].start:
         start = text.rfind("\n", 0, previous.start) + 1
-    names = frozenset(_NAME.findall(text, start, end))
+    statement = _COMMENT.sub("", text[start:end]) if repair.loses_names else ""
+    names = frozenset(_NAME.findall(statement))
     return UncertainText(context.source.span(start, end), names, repair.declares)
 
 

@@ -144,6 +144,6 @@ def _block(context: ErrorContext, item: Sequence[Token], keep: int) -> Iterator[
                 end=lone + 1,
                 message="`}` is missing before `;`",
                 edits=((lone, lone, "}"),),
-                since=context.source.text.rfind("\n", 0, opened.start) + 1,
+                since=lone,
             )
         yield repair

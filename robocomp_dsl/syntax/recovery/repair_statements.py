@@ -49,7 +49,7 @@ def token_behind_semicolon(
         keep=keep if item else 0,
         required=1,
         since=before[0].start,
-        declares=declares_name(before[:-1]),
+        declares=declares_name(context, before[:-1]),
     )
 
 

@@ -69,7 +69,7 @@ def doubled_token(context: ErrorContext, item: Sequence[Token], keep: int) -> It
             skip=0 if again else 1,
             keep=keep if again else 0,
             is_certain=second.text != ",",
-            declares=second.text == "," and declares_name(item),
+            declares=second.text == "," and declares_name(context, item),
         )
 
 
@@ -192,6 +192,7 @@ def _missing_keyword(
         edits=((token.start, token.start, f"{word} "),),
         replacement=(Token(kind, word, token.start, token.start), *item),
         keep=keep,
+        loses_names=True,
     )
 
 
