@@ -1,8 +1,8 @@
 """How well one fault in a correct file is reported: one error, at its place, with the right fix.
 
-Faults of one token in the interface library, the shipped components and the examples of the
-documents. A changed text that is still correct does not count. The share of restored texts counts
-every text with an error, whether a fix is offered or not.
+Faults of one token in the interface library, the shipped components, the correct files of the tests
+and the examples of the documents. A changed text that is still correct does not count. The share of
+restored texts counts every text with an error, whether a fix is offered or not.
 """
 
 from __future__ import annotations

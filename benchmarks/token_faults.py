@@ -1,5 +1,8 @@
 """Faults of one token in real files: deleted, doubled, swapped with the next one, misspelled.
 
+Words beside the fault stay apart: `live; next` with swapped tokens is `live next ;`, since
+`livenext ;` would have two faults.
+
 In: files without errors and a random generator. Out: texts with one fault each, and what
 `rcgen check` finds in them.
 """
@@ -9,7 +12,6 @@ from __future__ import annotations
 import random
 import re
 from collections.abc import Iterator
-from contextlib import suppress
 from functools import cache
 from itertools import takewhile
 from pathlib import Path
@@ -25,13 +27,15 @@ from robocomp_dsl.syntax.grammar.lexer import Lexer, Token
 from robocomp_dsl.syntax.grammar.tables import load
 
 ROOT = Path(__file__).resolve().parents[1]
-SUFFIXES = (".idsl", ".cdsl", ".pdsl", ".ddsl", ".smdsl")
+SUFFIXES = (".idsl", ".cdsl", ".pdsl", ".ddsl", ".smdsl", ".bdsl")
 KINDS = ("delete", "double", "swap", "misspell")
-FOLDERS = ("interfaces", "components", "tests/cases", "tests/golden", "tests/migrate")
-FENCE = re.compile(r"^```(idsl|cdsl|pdsl|ddsl|smdsl)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+TESTED = ("cases", "golden", "migrate", "middleware")
+FOLDERS = ("interfaces", "components", *(f"tests/{name}" for name in TESTED))
+FENCE = re.compile(r"^```(idsl|cdsl|pdsl|ddsl|smdsl|bdsl)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 WORKSPACE = Workspace(environ={})
 """Keeps the imported files, as in the language server."""
 
+_GLUED = re.compile(r"\w\w|\d\.|\.\d")
 _WORD = re.compile(r"[A-Za-z_]\w{2,}", re.ASCII)
 
 
@@ -58,8 +62,7 @@ def texts(suffix: str) -> Iterator[tuple[Path, str]]:
     """The files and the examples of the documents in a language that have no errors."""
     for folder in FOLDERS:
         for path in sorted((ROOT / folder).rglob(f"*{suffix}")):
-            with suppress(UnicodeDecodeError):  # a case of a file that is not UTF-8
-                yield path, path.read_text("utf-8")
+            yield path, path.read_text("utf-8", "replace")
     documents = [*sorted((ROOT / "docs").rglob("*.md")), ROOT / "README.md"]
     for document in documents:
         examples = FENCE.findall(document.read_text("utf-8"))
@@ -107,15 +110,16 @@ def faults(suffix: str, kind: str, count: int, rng: random.Random) -> Iterator[F
     for path, text, found, index in candidates:
         if count == 0:
             return
-        fault = _fault(path, text, found, index, kind, rng)
+        fault = make_fault(path, text, found, index, kind, rng)
         if fault:
             count -= 1
             yield fault
 
 
-def _fault(
+def make_fault(
     path: Path, text: str, found: list[Token], index: int, kind: str, rng: random.Random
 ) -> Fault | None:
+    """The fault of a kind at the token `found[index]`; None if it would change nothing."""
     token, following = found[index], found[index + 1]
     start, end, word = token.start, token.end, text[token.start : token.end]
     if kind == "swap":
@@ -123,28 +127,23 @@ def _fault(
         other = text[following.start : end]
         if other == word:
             return None
-        between = text[token.end : following.start]
-        changed = _apart(text[:start], other + (between or _blank(other, word)) + word, text[end:])
+        changed = _apart(_apart(other, text[token.end : following.start]), word)
     elif kind == "misspell":
         if not _WORD.fullmatch(word):
             return None
         changed = _misspelled(word, rng)
     elif kind == "double":
-        changed = f"{word}{_blank(word, word)}{word}"
+        changed = _apart(word, word)
     else:
         changed = ""
-    return Fault(path, kind, text, text[:start] + changed + text[end:], start, end)
+    changed = _apart(_apart(text[:start], changed), text[end:])
+    return Fault(path, kind, text, changed, start, end)
 
 
-def _blank(first: str, second: str) -> str:
-    """What separates two tokens that would be one without it."""
-    return " " if f"{first[-1]}{second[0]}".replace(".", "0").isalnum() else ""
-
-
-def _apart(before: str, changed: str, behind: str) -> str:
-    """`changed` with blanks where its first or last token would be one with its neighbour."""
-    first = _blank(before, changed) if before else ""
-    return first + changed + (_blank(changed, behind) if behind else "")
+def _apart(before: str, behind: str) -> str:
+    """Both texts, with a blank if their neighbouring words would become one: one fault only."""
+    joined = _GLUED.fullmatch(f"{before[-1:]}{behind[:1]}")
+    return f"{before} {behind}" if joined else f"{before}{behind}"
 
 
 def _misspelled(word: str, rng: random.Random) -> str:

@@ -66,10 +66,22 @@ class UncertainText(ValueRecord):
     declares: bool = False
 
 
+class UnknownName(ValueRecord):
+    """The name that a finding reports as not declared.
+
+    `declared` are the names of the declarations in the same file that it could refer to: one of
+    them may be the misspelled name.
+    """
+
+    text: str
+    declared: tuple[Span, ...]
+
+
 class Diagnostic(ValueRecord):
     """One finding at one location. `label` is printed beside the carets, `help` below.
 
-    `uncertain` is what a syntax error leaves uncertain, None for other findings.
+    `uncertain` is what a syntax error leaves uncertain, None for other findings. `unknown` is the
+    name that is not declared, if the finding reports one.
     """
 
     code: Code
@@ -80,6 +92,7 @@ class Diagnostic(ValueRecord):
     help: str = ""
     fix: Fix | None = None
     uncertain: UncertainText | None = None
+    unknown: UnknownName | None = None
 
     @property
     def severity(self) -> Severity:
@@ -106,9 +119,12 @@ class Report:
         help: str = "",
         fix: Fix | None = None,
         uncertain: UncertainText | None = None,
+        unknown: UnknownName | None = None,
     ) -> None:
         """Add one diagnostic."""
-        diagnostic = Diagnostic(code, span, message, label, tuple(notes), help, fix, uncertain)
+        diagnostic = Diagnostic(
+            code, span, message, label, tuple(notes), help, fix, uncertain, unknown
+        )
         self._diagnostics.setdefault((code.id, span, message), diagnostic)
 
     def add_finding(self, code: Code, finding: Finding, source: Source) -> None:
@@ -126,6 +142,12 @@ class Report:
         """Remove diagnostics of this report."""
         for old in diagnostics:
             self._diagnostics.pop((old.code.id, old.span, old.message), None)
+
+    def replace(self, removed: Iterable[Diagnostic], added: Diagnostic) -> None:
+        """Put one diagnostic in the place of others."""
+        for old in removed:
+            self._diagnostics.pop((old.code.id, old.span, old.message), None)
+        self.extend((added,))
 
     def __iter__(self) -> Iterator[Diagnostic]:
         return iter(self._diagnostics.values())
@@ -149,6 +171,11 @@ _NEAR = 0.7
 _MOST_COMPARED = 100
 
 
+def is_similar(word: str, other: str) -> bool:
+    """Whether one word may be a misspelling of the other, as for `nearest`."""
+    return nearest(word, (other,)) is not None
+
+
 def nearest(word: str, known: Iterable[str]) -> str | None:
     """The known name closest to `word`, or None; a difference in case only always matches."""
     by_letters: dict[str, str] = {}
@@ -157,10 +184,15 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
     letters = word.lower()
     if letters in by_letters:
         return by_letters[letters]
+    fitting = _similar_length(letters, by_letters)
+    if not fitting:
+        return None
     from difflib import get_close_matches  # noqa: PLC0415 - rarely needed
 
-    matches = get_close_matches(letters, _similar_length(letters, by_letters), 1, _NEAR)
-    return by_letters[matches[0]] if matches else None
+    if matches := get_close_matches(letters, fitting, 1, _NEAR):
+        return by_letters[matches[0]]
+    swapped = (name for name in fitting if len(name) > 2 and sorted(name) == sorted(letters))
+    return by_letters[found] if (found := next(swapped, "")) else None
 
 
 def _similar_length(word: str, known: Iterable[str]) -> list[str]:

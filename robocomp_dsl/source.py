@@ -50,7 +50,10 @@ class Source(Record):
     text: str
     parse_cache: dict[str, Any] | None = None
     offset = 0
-    __slots__ = ("__dict__", "__weakref__")  # for `line_starts` and for data of the editor
+    __slots__ = (
+        "__dict__",
+        "__weakref__",
+    )  # for `line_starts`, `suffix` and for data of the editor
 
     @classmethod
     def read(cls, path: Path) -> Source:
@@ -64,6 +67,11 @@ class Source(Record):
     def source(self) -> Source:
         """The source itself, so that `Source` and `TextRegion` have the same interface."""
         return self
+
+    @cached_property
+    def suffix(self) -> str:
+        """The suffix of the path in lower case, with the dot."""
+        return self.path.suffix.lower()
 
     @cached_property
     def line_starts(self) -> list[int]:

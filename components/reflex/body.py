@@ -46,8 +46,8 @@ class RobotBody:
 
     def use_law(self, law: str, clearance: float) -> None:
         """Use the law `pose` or `fixed`. Without a model, `pose` is replaced by `fixed`."""
-        directions = PoseDirections(self.kinematics, clearance) if self.kinematics else None
-        if directions is None or law == "fixed":
-            self.law = FixedLaw(directions)
+        self.directions = PoseDirections(self.kinematics, clearance) if self.kinematics else None
+        if self.directions is None or law == "fixed":
+            self.law = FixedLaw(self.directions)
         else:
-            self.law = PoseLaw(directions)
+            self.law = PoseLaw(self.directions)

@@ -21,6 +21,7 @@ from robocomp_dsl.tactile.errors import RejectedFrame
 from robocomp_dsl.tactile.reflex.law import Response
 from robocomp_dsl.tactile.reflex.perception import ReflexPerception
 from robocomp_dsl.tactile.reflex.receptive_fields import Ignored
+from robocomp_dsl.tactile.reflex.return_path import ReturnPath
 from robocomp_dsl.tactile.reflex.withdrawal import (
     Withdrawal,
     duration,
@@ -47,6 +48,7 @@ class SpecificWorker(HealthMonitor):
         if kinematics is None and self.params.law == "pose":
             self.log.warning("the description has no `model` in MJCF or URDF: the law is `fixed`")
         self.obstacle, self.reported = ObstacleMonitor(), (-inf, "")
+        self.return_path, self.is_last_goal = ReturnPath(), True
         self.pose = self.goal = np.zeros(self.size)
         self.touched = self.since = -inf
         self.until = inf
@@ -74,6 +76,7 @@ class SpecificWorker(HealthMonitor):
         if self.away:
             self.obstacle.returned = self.clock.now()
         self.away = False
+        self.return_path.clear()
         self._publish_state(ReflexState.Watching)
 
     def state_Watching(self) -> None:
@@ -83,6 +86,7 @@ class SpecificWorker(HealthMonitor):
         """Move away; a moving arm moves further away."""
         self.away = True
         if self.withdrawal is not None:
+            self.return_path.add(self.pose)
             self._move(self.withdrawal.goal, self.params.withdraw_speed)
         self._publish_state(ReflexState.Withdrawing)
 
@@ -103,13 +107,15 @@ class SpecificWorker(HealthMonitor):
 
     def on_enter_Returning(self) -> None:
         """Return slowly to the start pose."""
-        if self.arm is not None:
-            self._move(self.arm.within(self.arm.start, self.pose), self.params.return_speed)
+        self._return()
         self._publish_state(ReflexState.Returning)
 
     def state_Returning(self) -> None:
-        """Wait until the arm has arrived."""
-        self._arrive()
+        """Wait until the arm has arrived; it may return by several goals."""
+        if self._is_at_goal() and not self.is_last_goal:
+            self._return()
+        else:
+            self._arrive()
 
     # subscribesTo RoboCompSkin::SkinFrame
 
@@ -215,10 +221,24 @@ class SpecificWorker(HealthMonitor):
         if reason:
             self.freeze(f"the arm does not move: {reason}")
 
+    def _return(self) -> None:
+        """Move to the start pose, or to the next goal on a way that is free of the own body."""
+        if self.arm is None:
+            return
+        start = self.arm.within(self.arm.start, self.pose)
+        goal = self.return_path.next_goal(self.pose, start, self.body.directions)
+        self.is_last_goal = goal is None or goal is start
+        if goal is None:
+            self.log.warning("the arm stays: every way back would press it against the robot")
+            goal = self.pose
+        self._move(goal, self.params.return_speed)
+
+    def _is_at_goal(self) -> bool:
+        return max_joint_distance(self.pose, self.goal) <= self.params.arrived
+
     def _arrive(self) -> None:
         """Leave the state when the arm has arrived, or makes no progress."""
-        at_goal = max_joint_distance(self.pose, self.goal) <= self.params.arrived
-        if at_goal or self.clock.now() >= self.until:
+        if self._is_at_goal() or self.clock.now() >= self.until:
             self.machine.send("arrived")
 
     def _publish_state(self, state: ReflexState) -> None:

@@ -65,6 +65,9 @@ def _parameter(was: Parameter, now: Parameter, name: str, changes: Changes) -> N
     if _narrower(was, now):
         message = f"parameter {name} accepted {_range(was)}, now {_range(now)}"
         changes.add(codes.CONFIGURATION, was, now, message)
+    if was.is_list and _is_shorter(was, now):
+        lengths = f"{was.describe_length()}, now {now.describe_length()}"
+        changes.add(codes.CONFIGURATION, was, now, f"parameter {name} accepted {lengths}")
     for gone in (c for c in was.choices if c not in now.choices):
         message = f"parameter {name} no longer accepts `{gone}`"
         changes.add(codes.CONFIGURATION, was, now, message)
@@ -72,7 +75,8 @@ def _parameter(was: Parameter, now: Parameter, name: str, changes: Changes) -> N
         message = f"parameter {name} was in {was.unit or 'no unit'}, now in {now.unit or 'no unit'}"
         changes.add(codes.BEHAVIOUR, was, now, message)
     if was.default is not None and now.default is not None and was.default != now.default:
-        message = f"the default of {name} was {was.default!r}, now {now.default!r}"
+        old, new = _default(was), _default(now)
+        message = f"the default of {name} was {old}, now {new}"
         changes.add(codes.BEHAVIOUR, was, now, message)
     if was.live and not now.live:
         message = f"parameter {name} can no longer change while running"
@@ -83,6 +87,8 @@ def _accepted_kind(item: Parameter) -> str:
     """The accepted kind of value, in words."""
     if item.kind is Kind.GROUP:
         return "one group" if item.single else "a list of groups"
+    if item.is_list:
+        return f"a list, each {_accepted_kind(item.replace(shortest=None))}"
     words = {Kind.STRING: "a string", Kind.BOOL: "a bool", Kind.CHOICE: "one of some words"}
     return words.get(item.kind, "a number" if item.kind is Kind.FLOAT else "a whole number")
 
@@ -97,6 +103,17 @@ def _narrower(was: Parameter, now: Parameter) -> bool:
     low = now.low is not None and (was.low is None or now.low > was.low)
     high = now.high is not None and (was.high is None or now.high < was.high)
     return low or high
+
+
+def _is_shorter(was: Parameter, now: Parameter) -> bool:
+    """Whether some lists that were accepted are too short or too long now."""
+    if (now.shortest or 0) > (was.shortest or 0):
+        return True
+    return now.longest is not None and (was.longest is None or now.longest < was.longest)
+
+
+def _default(item: Parameter) -> str:
+    return str(list(item.default)) if isinstance(item.default, tuple) else repr(item.default)
 
 
 def _range(item: Parameter) -> str:

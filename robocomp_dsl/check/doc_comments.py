@@ -20,6 +20,7 @@ _BEHIND = re.compile(
     r"[ \t]*[;,]?[ \t]*(?://[/!]?<?[ \t]*(?P<line>[^\r\n]*)"
     r"|/\*[*!]?<?[ \t]*(?P<block>[^\r\n]*?)\*/[ \t]*(?:\r?\n|\Z))"
 )
+_LINE_ENDS = ("", "\n", "\r")
 _CODE = re.compile(r"[;{}]\s*\Z|\A\W*\Z")
 """A comment that is code, or a line of signs."""
 _TITLE = re.compile(
@@ -54,9 +55,13 @@ class DocumentedNode(Protocol):
 
 def documentation_of(node: DocumentedNode) -> str:
     """The documentation of an item."""
-    text, span = node.span.source.text, node.span
-    if span.source.path.suffix.lower() not in _LANGUAGES:
+    span = node.span
+    source = span.source
+    if source.suffix not in _LANGUAGES:
         return plain(node.doc)
+    text = source.text
+    if not node.doc and text[span.end : span.end + 1] in _LINE_ENDS:
+        return ""
     before = _without_comment_of_previous(node.doc, text, span.start)
     return plain(before or _behind(text, span.end))
 
@@ -79,14 +84,21 @@ def _behind(text: str, end: int) -> str:
     return "" if _CODE.search(comment) else comment
 
 
+def _line_start(text: str) -> int:
+    """Where the last line starts."""
+    return max(text.rfind("\n"), text.rfind("\r")) + 1
+
+
 def _without_comment_of_previous(doc: str, text: str, start: int) -> str:
     """`doc` without a comment `///` that is behind the previous item."""
     if not doc:
         return ""
-    lines = text[max(start - 10_000, 0) : start].rstrip().splitlines()
-    while lines and lines[-1].lstrip().startswith("///"):
-        lines.pop()
-    code, mark, _ = lines[-1].partition("///") if lines else ("", "", "")
+    before = text[max(start - 10_000, 0) : start].rstrip()
+    line = before[_line_start(before) :]
+    while line.lstrip().startswith("///"):
+        before = before[: max(_line_start(before) - 1, 0)]
+        line = before[_line_start(before) :]
+    code, mark, _ = line.partition("///")
     if mark and code.strip() and not code.rstrip().endswith("{"):
         return doc.partition("\n")[2]
     return doc

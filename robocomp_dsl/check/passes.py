@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from robocomp_dsl.check.follow_on import discard_follow_on_errors
+from robocomp_dsl.check.names.misspelled_declarations import report_misspelled_declarations
 from robocomp_dsl.check.workspace.loaded import transitive_errors
 from robocomp_dsl.check.workspace.source_cache import Parsed, Parser
 from robocomp_dsl.check.workspace.workspace import Workspace
@@ -53,6 +54,7 @@ def check_cdsl(path: Path, workspace: Workspace, report: Report) -> Component | 
         return None
     resolved = resolve_cdsl(file, file.tree.component, workspace, report)
     check_cdsl_rules(resolved, report)
+    report_misspelled_declarations(report)
     if file.tree.component.gui:
         from robocomp_dsl.check.cdsl.window import check_form  # noqa: PLC0415 - for windows
 
@@ -66,7 +68,9 @@ def check_pdsl(path: Path, workspace: Workspace, report: Report) -> ParameterSet
     from robocomp_dsl.check.pdsl.resolve import resolve_pdsl  # noqa: PLC0415
 
     file = parse(path, parse_pdsl, workspace, report)
-    return resolve_pdsl(file, report) if file else None
+    parameters = resolve_pdsl(file, report) if file else None
+    report_misspelled_declarations(report)
+    return parameters
 
 
 def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment | None:
@@ -78,6 +82,7 @@ def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment |
         return None
     deployment = resolve_ddsl(file, workspace, check_cdsl, report)
     discard_follow_on_errors(report, file)
+    report_misspelled_declarations(report)
     return deployment
 
 
@@ -91,6 +96,7 @@ def check_bdsl(path: Path, workspace: Workspace, report: Report) -> Bridge | Non
         return None
     bridge = resolve_bdsl(file, file.tree.bridge, workspace, report)
     discard_follow_on_errors(report, file)
+    report_misspelled_declarations(report)
     return bridge
 
 
@@ -99,10 +105,12 @@ def check_state_machine(path: Path, workspace: Workspace, report: Report) -> Sta
     from robocomp_dsl.check.states.state_machines import MACHINES  # noqa: PLC0415
 
     try:
-        return MACHINES[path.suffix.lower()](path, workspace, report)
+        machine = MACHINES[path.suffix.lower()](path, workspace, report)
     except UnreadableSource as error:
         _report_unreadable(path, error, report)
         return None
+    report_misspelled_declarations(report)
+    return machine
 
 
 def check_innermodel(path: Path, workspace: Workspace, report: Report) -> InnerModel | None:

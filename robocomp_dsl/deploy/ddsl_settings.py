@@ -7,14 +7,17 @@ new text of the file. An edit is verified: the new text has the same tree but fo
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
 
 from robocomp_dsl.deploy.write_text import FileNotReplaced, write_text
 from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.finding import Location, SourceText
 from robocomp_dsl.runtime.parameters.overrides import parse_path
+from robocomp_dsl.runtime.parameters.tree import Scalar, TextSyntax
+from robocomp_dsl.runtime.parameters.value_list import split
 from robocomp_dsl.source import Source, UnreadableSource
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.languages.ddsl import parse
@@ -82,6 +85,20 @@ def edit_text(text: str, path: Path, instance: str, parameter: str, literal: str
         new = _insert(text, innermost, f"set {key}{parameter} = {literal};")
     _verify(new, path, instance, parameter, literal, len(blocks))
     return new
+
+
+def format_ddsl_value(parameter: str, text: str, types: Mapping[str, str]) -> str:
+    """A value of the command line as DDSL writes it.
+
+    `types` are those of the parameters, as `float` and `float[1:8]`; `parameter` may be an element.
+    """
+    type_ = types.get(parameter) or types.get(parameter.rpartition("[")[0], "")
+    kind, bracket, _ = type_.partition("[")
+    if not bracket or parameter not in types:
+        return format_ddsl_literal(text.strip(), is_text=kind == "string")
+    whole = Scalar(Location(SourceText(parameter)), text, TextSyntax.RAW)
+    elements = [format_ddsl_literal(e.text, is_text=kind == "string") for e in split(whole)]
+    return f"{{{', '.join(elements)}}}"
 
 
 def format_ddsl_literal(value: str, *, is_text: bool) -> str:

@@ -38,5 +38,7 @@ def _runtime_entry(parameter: Parameter) -> schemas.Entry:
         unit=parameter.unit,
         choices=parameter.choices,
         live=parameter.live,
+        shortest=parameter.shortest,
+        longest=parameter.longest,
         doc=parameter.doc,
     )

@@ -29,8 +29,8 @@ from robocomp_dsl.model.deployment import (
     Instance,
     Restart,
 )
+from robocomp_dsl.model.parameter import Default
 from robocomp_dsl.model.port_middlewares import port_middlewares
-from robocomp_dsl.model.types import Literal
 from robocomp_dsl.runtime.time.clock_settings import LOCKSTEP, SIM, ClockSettings
 
 __all__ = [
@@ -166,8 +166,12 @@ def format_settings(instance: Instance) -> tuple[str, ...]:
     return tuple(f"{key}={format_literal(value)}" for key, value in instance.settings)
 
 
-def format_literal(value: Literal) -> str:
+def format_literal(value: Default) -> str:
     """A value as it is written after `--set key=`."""
+    if isinstance(value, tuple):
+        from robocomp_dsl.runtime.parameters.value_list import format_list  # noqa: PLC0415 - seldom
+
+        return format_list(value)
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 

@@ -67,12 +67,14 @@ STYLES: Mapping[str, Style] = {
         second=frozenset(("BRACKETED",)),
         inline_braces=True,
     ),
-    # set motors[2].min = 1;  restart on-failure;  connect a.B -> c.B;  when !(a || b);  cores 2-3;
+    # set motors[2].min = 1;  set weights = {1, 2};
+    # restart on-failure;  connect a.B -> c.B;  when !(a || b);  cores 2-3;
     "ddsl": Style(
-        before=_BEFORE - {"("} | {"BRACKETED"},
-        after=_AFTER | {"!"},
+        before=_BEFORE - {"("} | {"BRACKETED", "}"},
+        after=_AFTER | {"!", "{"},
         pairs=frozenset((("NUMBER", "NUMBER"), ("ID", "-"), ("-", "ID"))),
         breaks=frozenset(("->",)),
+        inline_braces=True,
     ),
     # :playing parallel { states a, b; };
     "smdsl": Style(after=_AFTER | {":"}),

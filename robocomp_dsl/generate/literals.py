@@ -59,9 +59,11 @@ def python_value(value: Literal) -> str:
     return repr(value)
 
 
-def yaml_value(value: Literal) -> str:
-    """A default as a YAML scalar with the same value in YAML 1.1 and 1.2."""
+def yaml_value(value: Literal | tuple[Literal, ...]) -> str:
+    """A default as YAML with the same value in YAML 1.1 and 1.2; a list in brackets."""
     match value:
+        case tuple():
+            return f"[{', '.join(map(yaml_value, value))}]"
         case bool():
             return str(value).lower()
         case float() if not math.isfinite(value):

@@ -33,11 +33,12 @@ def diagnostics_of(session: Session, checked: CheckResult) -> list[lsp.Diagnosti
     imported: dict[str, list[Diagnostic]] = {}
     checked_file = canonical_path(checked.source.path)
     for finding in checked.findings:
-        file = canonical_path(finding.span.source.path)
-        if file == checked_file:
+        source = finding.span.source
+        is_own = source is checked.source or canonical_path(source.path) == checked_file
+        if is_own:
             own.append(diagnostic(session, finding))
         elif finding.severity is Severity.ERROR:
-            imported.setdefault(file, []).append(finding)
+            imported.setdefault(canonical_path(source.path), []).append(finding)
     imports = _imports(session, checked.source)
     own.extend(
         _import_diagnostic(session, errors, checked.source, imports) for errors in imported.values()

@@ -20,6 +20,7 @@ from robocomp_dsl.migrate.values import (
     format_value,
     kind_of,
     looks_like_list,
+    usual_text,
 )
 from robocomp_dsl.model.parameter import Kind
 from robocomp_dsl.model.types import Literal
@@ -33,14 +34,14 @@ _NAME = re.compile(r"(?!(?:string|int|float|bool)$)[A-Za-z_][A-Za-z0-9_]*", re.I
 
 @dataclass(frozen=True, slots=True)
 class ScalarParameter:
-    """One value. `bool_texts` is the first file's spelling of true and false, if it is a bool."""
+    """One value. `texts` are the spellings of values in text files that differ from the usual."""
 
     name: str
     old_path: tuple[str, ...]
     kind: Kind
     default: Literal | None
     doc: str = ""
-    bool_texts: tuple[str, str] = ("true", "false")
+    texts: Mapping[Literal, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +164,7 @@ class _TreeBuilder:
         first = next(iter(occurrences))
         entry = occurrences[first]
         doc = next((e.doc for e in occurrences.values() if e.doc), "")
-        texts = _bool_texts(entry.value) if kind is Kind.BOOL else ("true", "false")
+        texts = _texts([e.value for e in occurrences.values()], kind)
         default = convert_value(entry.value, kind)
         return ScalarParameter(path[-1], entry.path, kind, default, doc, texts)
 
@@ -258,10 +259,17 @@ def _is_plain_list(value: Value) -> bool:
     return isinstance(value, list) and not any(isinstance(v, list | dict) for v in value)
 
 
-def _bool_texts(value: Value) -> tuple[str, str]:
-    """A file's spelling of true and false, from one example."""
-    if not isinstance(value, str):
-        return ("true", "false")
-    if value.isupper():
-        return ("TRUE", "FALSE")
-    return ("True", "False") if value[:1].isupper() else ("true", "false")
+def _texts(values: Sequence[Value], kind: Kind) -> dict[Literal, str]:
+    """The spellings of the values in text files that are not the usual one of the value."""
+    texts: dict[Literal, str] = {}
+    for spelling in values:
+        if not isinstance(spelling, str) or kind is Kind.STRING:
+            continue
+        value = convert_value(spelling, kind)
+        if spelling != usual_text(value):
+            texts.setdefault(value, spelling)
+    if kind is Kind.BOOL and texts:
+        capital = next(iter(texts.values())).istitle()
+        for value in (True, False):
+            texts.setdefault(value, str(value) if capital else str(value).upper())
+    return texts

@@ -134,11 +134,10 @@ def _types(module: Module, called: PythonNames) -> Iterator[tuple[str, str]]:
 def _settings(parameters: InferredParameters) -> Iterator[str]:
     for path, parameter in walk_parameters(parameters.tree):
         key = "".join(f"{python_string(part)}, " for part in parameter.old_path)
-        texts = (
-            parameter.bool_texts if isinstance(parameter, ScalarParameter) else ("true", "false")
-        )
         listed = not isinstance(parameter, ScalarParameter)
-        yield f'(({key}), {python_string(".".join(path))}, {listed}, ("{texts[0]}", "{texts[1]}"))'
+        texts = parameter.texts if isinstance(parameter, ScalarParameter) else {}
+        rows = ", ".join(f"{value!r}: {python_string(text)}" for value, text in texts.items())
+        yield f"(({key}), {python_string('.'.join(path))}, {listed}, {{{rows}}})"
 
 
 def _proxies(component: Component, called: PythonNames) -> Iterator[tuple[str, str]]:

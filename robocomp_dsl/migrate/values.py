@@ -73,6 +73,13 @@ def format_value(value: Value) -> str:
     return json.dumps(value, ensure_ascii=False, default=str)
 
 
+def usual_text(value: Literal) -> str:
+    """The text that an old worker gets for a parameter, unless its file has another spelling."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)
+
+
 def is_exact(value: Value, kind: Kind) -> bool:
     """Whether `convert_value` is lossless for an integer that becomes a floating point number."""
     return kind is not Kind.FLOAT or not isinstance(value, int) or abs(value) <= _EXACT

@@ -43,7 +43,7 @@ class Expression(Record):
     def children(self) -> tuple[Expression, ...]:
         """The expressions that it consists of, in order."""
         children: list[Expression] = []
-        for name in type(self).__match_args__:
+        for name in type(self).__match_args__[_SHARED_FIELDS:]:
             value = getattr(self, name)
             parts = value if isinstance(value, tuple) else (value,)
             children += [part for part in parts if isinstance(part, Expression)]
@@ -54,6 +54,10 @@ class Expression(Record):
         yield self
         for child in self.children():
             yield from child.walk()
+
+
+_SHARED_FIELDS = len(Expression.__match_args__)
+"""The first fields of all expressions are no expressions."""
 
 
 class ConstantValue(Expression):

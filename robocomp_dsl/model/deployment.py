@@ -7,6 +7,7 @@ from pathlib import Path
 
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.devices import Devices
+from robocomp_dsl.model.parameter import Default
 from robocomp_dsl.model.placement import Placement
 from robocomp_dsl.model.types import Literal
 from robocomp_dsl.record import Record, ValueRecord
@@ -158,7 +159,7 @@ class Instance(Record):
     context: str = ""
     config_name: str = ""
     prefix: str = ""
-    settings: tuple[tuple[str, Literal], ...] = ()
+    settings: tuple[tuple[str, Default], ...] = ()
     environment: tuple[tuple[str, str], ...] = ()
     devices: Devices = Devices()
     executable: str = "python3 main.py"

@@ -69,7 +69,7 @@ ROS_PRIMITIVES = {
 }
 """The built-in types of ROS by name."""
 
-NUMBERS = (BYTE, SHORT, INT, LONG, FLOAT, DOUBLE, INT8, OCTET, UINT16, UINT32, UINT64)
+NUMBERS = frozenset((BYTE, SHORT, INT, LONG, FLOAT, DOUBLE, INT8, OCTET, UINT16, UINT32, UINT64))
 
 Literal: TypeAlias = bool | int | float | str
 

@@ -64,9 +64,10 @@ def _main(component: type[Component], argv: Sequence[str] | None) -> int:
     on_signals(runner.stop)
     runner.start()
     succeeded = window.run(runner) if window else runner.wait()
+    code = 0 if succeeded else runner.lifecycle.exit_code or 1
     if runner.abandoned:
-        exit_now(1)  # one of its threads hangs
-    return 0 if succeeded else 1
+        exit_now(code)  # one of its threads hangs
+    return code
 
 
 def create_runner(

@@ -48,6 +48,16 @@ class FileDiagnostics:
         return self.errors >= LIMIT or self.warnings >= LIMIT
 
     @property
+    def count_before_limit(self) -> int:
+        """How many diagnostics of any kind can follow before `limit_reached`."""
+        return LIMIT - 1 - max(self.errors, self.warnings)
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the diagnostic about the skipped rest of the file has been added."""
+        return self.errors > LIMIT
+
+    @property
     def too_many_errors(self) -> bool:
         """Whether the rest of the file is skipped because of its errors."""
         return self.errors >= LIMIT

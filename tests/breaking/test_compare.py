@@ -45,7 +45,10 @@ INTERFACES = [
     ("[command] void go", "void stop(); [command] void go", "RC641", "operation `stop`"),
     ("struct Pose { float x [mm]; float y = 1; };", "sequence<int> Pose;", "RC641", "was a struct"),
 ]
-PDSL = "rate float 5 0:10 live; name string; mode {a, b} a; on { deep int 1; };"
+PDSL = (
+    "rate float 5 0:10 live; name string; mode {a, b} a; on { deep int 1; };"
+    " list[1:4] int 1; more[] {x, y};"
+)
 PARAMETERS = [
     ("name string;", "", "RC643", "parameter `name` was removed"),
     ("float 5 0:10", "float 5 1:10", "RC643", "accepted 0 to 10, now 1 to 10"),
@@ -56,8 +59,19 @@ PARAMETERS = [
     ("{a, b} a", "{a} a", "RC643", "no longer accepts `b`"),
     ("{a, b} a", "{a, b, c} a", "", ""),
     ("deep int 1", "deep int", "RC643", "parameter `on.deep` is now required"),
-    ("name string;", "name string; more int;", "RC643", "`more` was added and is required"),
-    ("name string;", "name string; more int 3;", "", ""),
+    ("name string;", "name string; new int;", "RC643", "`new` was added and is required"),
+    ("name string;", "name string; new int 3;", "", ""),
+]
+LISTS = [
+    ("list[1:4]", "list[2:4]", "RC643", "`list` accepted 1 to 4 elements, now 2 to 4 elements"),
+    ("list[1:4]", "list[1:3]", "RC643", "`list` accepted 1 to 4 elements, now 1 to 3 elements"),
+    ("list[1:4]", "list[1:]", "", ""),
+    ("list[1:4] int 1", "list[1:4] int", "RC643", "parameter `list` is now required"),
+    ("list[1:4] int 1", "list[1:4] int {1, 2}", "RC644", "`list` was [1], now [1, 2]"),
+    ("list[1:4] int", "list[1:4] float", "RC643", "was a list, each a whole number, now it is"),
+    ("list[1:4] int", "list int", "RC643", "a list, each a whole number, now it is a whole number"),
+    ("more[] {x, y}", "more[] {x}", "RC643", "`more` no longer accepts `y`"),
+    ("more[] {x, y}", "more[2] {x, y}", "RC643", "accepted any number of elements, now 2 elements"),
 ]
 PORTS = [
     ("implements Base;", "", "RC641", "`c` implements `M::Base` no longer"),
@@ -73,7 +87,7 @@ PORTS = [
     ("middleware zenoh;", "middleware inproc;", "RC641", "used zenoh, now inproc"),
 ]
 CASES = [("idsl", *c) for c in INTERFACES] + [("pdsl", *c) for c in PARAMETERS]
-CASES += [("cdsl", *c) for c in PORTS]
+CASES += [("pdsl", *c) for c in LISTS] + [("cdsl", *c) for c in PORTS]
 
 
 def version(folder: Path, changed: str = "", old: str = "", new: str = "") -> Version:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from robocomp_dsl.check.passes import check_innermodel, check_pdsl
+from robocomp_dsl.check.passes import check_cdsl, check_innermodel, check_pdsl
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.component import Role
 from robocomp_dsl.model.interface import Pattern
@@ -78,3 +79,22 @@ def test_innermodel_model(tmp_path: Path) -> None:
     body = check_innermodel(path, case_workspace(), report)
     assert body is not None
     assert not report.has_errors
+
+
+def test_option_agmagent_takes_topic_from_file_of_executive(tmp_path: Path) -> None:
+    (tmp_path / "agent.cdsl").write_text(
+        "Component agent { Communications { }; language Python; options agmagent; };\n"
+    )
+    for name, declared in (
+        ("AGMExecutive", ("AGMExecutive", "AGMExecutiveTopic")),
+        ("AGMCommonBehavior", ("AGMCommonBehavior",)),
+        ("AGMWorldModel", ()),
+    ):
+        interfaces = " ".join(f"interface {interface} {{ void go(); }};" for interface in declared)
+        (tmp_path / f"{name}.idsl").write_text(f"module RoboComp{name} {{ {interfaces} }};\n")
+    report = Report()
+    model = check_cdsl(tmp_path / "agent.cdsl", Workspace(environ={}), report)
+    assert [finding.message for finding in report] == []
+    assert model is not None
+    (topic,) = model.with_role(Role.SUBSCRIBES)
+    assert topic.interface.qualified == "RoboCompAGMExecutive::AGMExecutiveTopic"

@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
+from random import Random
 
 import pytest
 
 from benchmarks.bench_recovery import measure
-from benchmarks.token_faults import KINDS, SUFFIXES, Fault, apply, find_errors, judge
+from benchmarks.token_faults import (
+    KINDS,
+    SUFFIXES,
+    Fault,
+    apply,
+    find_errors,
+    judge,
+    make_fault,
+    tokens,
+)
 
 IDSL = """\
 module M
@@ -22,6 +33,7 @@ module M
     {
         Place find(string name) throws Lost;
         void forget(string name);
+        void meet(string name, out string owner, out Place place);
     };
 };
 """
@@ -53,6 +65,8 @@ CASES = [
     (".idsl", IDSL, "x [m];", "[m] x;", "`[m]` and `x` are in the wrong order"),
     (".idsl", IDSL, "string name;", "name string;", "unknown type `name`"),
     (".idsl", IDSL, "void forget", "viod forget", "unknown type `viod`"),
+    (".idsl", IDSL, "out string owner", "uot string owner", "`uot` is not a keyword"),
+    (".idsl", IDSL, "out Place place", "ouut Place place", "`ouut` is not a keyword"),
     (".smdsl", SMDSL, "on started", "started", "`on` is missing before `started`"),
     (".smdsl", SMDSL, "=> Busy", "=>=> Busy", "`=>` is written twice"),
     (".smdsl", SMDSL, "Idle =>", "=> Idle", "`=>` and `Idle` are in the wrong order"),
@@ -78,6 +92,35 @@ def test_parser_repairs_fault_of_one_token(
     assert outcome
     assert outcome.near
     assert outcome.restored
+
+
+SWAPPED_BRACKETS = [
+    (
+        ".idsl",
+        "module M { interface I { [query] int a(); }; };",
+        "[query] int",
+        "int [query]",
+    ),
+    (".pdsl", "ComponentParams P { load[1:2] { value int 1; }; };", "load[1:2]", "[1:2]load"),
+    (".bdsl", "bridge b { input a : double[2] over yarp; };", "double[2]", "[2]double"),
+]
+
+
+@pytest.mark.parametrize(("suffix", "text", "right", "wrong"), SWAPPED_BRACKETS)
+def test_parser_reports_brackets_before_word(
+    suffix: str, text: str, right: str, wrong: str, tmp_path: Path
+) -> None:
+    assert find_errors(tmp_path / f"x{suffix}", text.replace(right, wrong))
+
+
+@pytest.mark.parametrize("kind", ["swap", "delete", "double"])
+def test_make_fault_keeps_words_beside_fault_apart(kind: str) -> None:
+    found = tokens(PDSL, ".pdsl")
+    words = set(re.findall(r"\w+", PDSL))
+    for index in range(len(found) - 1):
+        fault = make_fault(Path("x.pdsl"), PDSL, found, index, kind, Random(1))
+        assert fault
+        assert set(re.findall(r"\w+", fault.text)) <= words, fault.text
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -25,6 +25,8 @@ ComponentParams arm
     rate float 50 [Hz] 1:1000 live;
     serial string;
     motors[0:4] { id int 0 0:127; };
+    weights[1:4] float 1.0 [kg] 0:10 live;
+    names[] string live;
 };
 """
 EYE = """

@@ -12,6 +12,7 @@ from robocomp_dsl.deploy.ddsl_settings import (
     edit_text,
     find_setting,
     format_ddsl_literal,
+    format_ddsl_value,
     write_settings,
 )
 
@@ -115,3 +116,30 @@ def test_ddsl_settings_that_cannot_be_written(tmp_path: Path) -> None:
 )
 def test_ddsl_settings_literals(value: str, is_text: bool, literal: str) -> None:
     assert format_ddsl_literal(value, is_text=is_text) == literal
+
+
+@pytest.mark.parametrize(
+    ("parameter", "text", "value"),
+    [
+        ("weights", "1, 2.5", "{1, 2.5}"),
+        ("weights", "[1]", "{1}"),
+        ("weights", "[]", "{}"),
+        ("weights[2]", " 3", "3"),
+        ("names", '["a, b", c, 1]', '{"a, b", "c", "1"}'),
+        ("names[0]", "1", '"1"'),
+        ("modes", "a,b", '{"a", "b"}'),
+        ("flags", "true,false", "{true, false}"),
+        ("motors[0].min", "1", "1"),
+        ("rate", "20", "20"),
+    ],
+)
+def test_ddsl_settings_of_lists(parameter: str, text: str, value: str) -> None:
+    types = {
+        "weights": "float[1:8]",
+        "names": "string[]",
+        "modes": "choice[2]",
+        "flags": "bool[2]",
+        "motors[0].min": "float",
+        "rate": "float",
+    }
+    assert format_ddsl_value(parameter, text, types) == value

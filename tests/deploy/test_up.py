@@ -59,9 +59,19 @@ def test_param_command_reads_and_sets_running_parameters(app_folder: Path) -> No
         there = rcdeploy("app.ddsl", "param", "set", "arm", "rate=30", "--ddsl")
         assert there.stdout == f"arm: rate = 30\nwritten to {(app_folder / 'app.ddsl').resolve()}\n"
         assert (app_folder / "app.ddsl").read_text() == text.replace("rate = 20", "rate = 30")
+        lists = ("weights=2, 3", "weights[1]=4.5", 'names=["a, b", c]')
+        assert rcdeploy("param", "set", "app", "arm", *lists, "--ddsl").returncode == 0
+        shown = rcdeploy("param", "get", "app", "arm", "weights", "names").stdout
+        assert shown == '[2.0, 4.5]\n["a, b", "c"]\n'
+        written = (app_folder / "app.ddsl").read_text()
+        assert "set weights = {2, 3};" in written
+        assert "set weights[1] = 4.5;" in written
+        assert 'set names = {"a, b", "c"};' in written
+        assert rcdeploy("check", "app.ddsl").returncode == 0
         again = rcdeploy("param", "set", "app", "arm", "rate=30", "--ddsl", "--save").stdout
         assert "overrides" not in again
         assert '"rate": 30.0\n' in saved.read_text()
+        assert '"weights": [2.0, 4.5]\n' in saved.read_text()
         data = json.loads(rcdeploy("param", "list", "app", "arm", "--format", "json").stdout)
         assert data["arm"][0]["value"] == "30.0"
         for wrong, hint in (

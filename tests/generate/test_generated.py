@@ -210,7 +210,18 @@ VALUES = {
         "retries": 3,
         "fast": False,
         "mode": "position",
-        **{f"motors[{i}].{k}": v for i in (0, 1) for k, v in [("name", "m"), ("min", -3.14)]},
+        "weights": [1.0],
+        "offsets": [0.0, 0.5, 1.0],
+        "ids": [],
+        "names": ["left", "right"],
+        "modes": ["velocity"] * 2,
+        "marks": [False] * 9,
+        "models": ["etc/config.yaml"],
+        **{
+            f"motors[{i}].{k}": v
+            for i in (0, 1)
+            for k, v in [("name", "m"), ("min", -3.14), ("limits", [-1.0, 1.0])]
+        },
         "limits.current": 1e-9,
         "limits.voltage": 12.5,
     },
@@ -246,6 +257,12 @@ WRONG = [
     {"motors": [{"name": "a"}, {"nam": "b"}]},
     {"unknown": 1},
     {"retries": 1.5},
+    {"weights": []},
+    {"weights": [11]},
+    {"weights": 1},
+    {"offsets": [1, 2]},
+    {"modes": ["position", "off"]},
+    {"ids": [1.5]},
 ]
 
 

@@ -67,6 +67,23 @@ GUESSES = [
 ]  # fmt: skip
 
 
+MISSPELLED = """\
+game { initial_state first; states secnd; transitions { first => second; second => first; }; };
+"""
+
+
+async def test_misspelled_declaration_has_its_uses_and_a_quick_fix(editor: Editor) -> None:
+    editor.open("a.smdsl", MISSPELLED)
+    (found,) = await editor.until("a.smdsl", bool)
+    assert found.message.startswith("`secnd` is declared, but `second` is used")
+    assert MISSPELLED[found.range.start.character :].startswith("secnd;")
+    uses = [related.location.range for related in found.related_information or ()]
+    assert [MISSPELLED[use.start.character : use.end.character] for use in uses] == ["second"] * 2
+    (action,) = await actions(editor, "a.smdsl", MISSPELLED, "secnd", [lsp.CodeActionKind.QuickFix])
+    assert action.title == "Change to `second`"
+    assert "states second;" in applied(editor, action, "a.smdsl", MISSPELLED)
+
+
 async def test_code_actions_apply_suggestions(editor: Editor) -> None:
     for name, text, word, title, expected in GUESSES:
         found = await actions(editor, name, text, word)

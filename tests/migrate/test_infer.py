@@ -234,3 +234,31 @@ def test_infer_reports_missing_keys_once_per_file() -> None:
         "`a` lacks `k0`, `k1`, `k2`, `k3`, `k4` and 2 more; their defaults apply",
         "`b` lacks `x`; its default applies",
     ]
+
+
+@pytest.mark.parametrize(
+    ("written", "texts"),
+    [
+        ("1", {}),
+        ("1.5", {}),
+        ("true", {}),
+        ("1.50", {1.5: "1.50"}),
+        ("1000.0", {1000.0: "1000.0"}),
+        ("1e3", {1000.0: "1e3"}),
+        ("+5", {5: "+5"}),
+        ("-0", {0: "-0"}),
+        ("TRUE", {True: "TRUE", False: "FALSE"}),
+        ("False", {False: "False", True: "True"}),
+        ("12345678901234567890", {12345678901234567890.0: "12345678901234567890"}),
+        ("007", {}),
+    ],
+)
+def test_infer_keeps_spelling_of_values(tmp_path: Path, written: str, texts: object) -> None:
+    path = tmp_path / "config"
+    path.write_text(f"a = {written}\n")
+    config = read_config(Source.read(path), Report())
+    assert config is not None
+    parameters = infer([(config, config.entries)], Report())
+    node = parameters.tree[0]
+    assert isinstance(node, ScalarParameter)
+    assert node.texts == texts

@@ -13,9 +13,11 @@ class ArmParams(Parameters):
             "rate", "float", default=50.0, low=1, high=100, unit="Hz", live=True, doc="How often."
         ),
         Parameter("device", "string", default="/dev/null"),
+        Parameter("weights", "float", default=(1.0,), high=9, live=True, shortest=1, longest=3),
     )
     rate: float
     device: str
+    weights: list[float]
 
 
 class Arm(Component):

@@ -271,6 +271,8 @@ def test_set_qos_of_a_publisher_takes_effect_while_it_publishes(deployment: Depl
 def test_wrong_requests_are_refused(call: tuple[str, ...], text: str) -> None:
     deployment = Deployment("inproc")
     try:
+        connected = {("News", "a.News"), ("Probe", "a.Probe")}
+        wait_until(lambda: connected <= set(deployment.list("sink")))
         before = [(i.port, i.peer, i.qos) for i in deployment.list("sink").values()]
         with pytest.raises(Refusal) as refused:
             getattr(deployment.sink_connections, call[0])(*call[1:])

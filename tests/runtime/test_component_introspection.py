@@ -20,7 +20,7 @@ def test_component_interface_reports_info_parameters_and_statistics(
     info = arm_proxy.getInfo()
     assert (info.name, info.component, info.pid) == ("arm", "arm", os.getpid())
     assert info.state is LifeState.Compute
-    rate, device = arm_proxy.getParameters()
+    rate, device, weights = arm_proxy.getParameters()
     assert (rate.name, rate.unit, rate.low, rate.high, rate.live) == (
         "rate",
         "Hz",
@@ -29,6 +29,7 @@ def test_component_interface_reports_info_parameters_and_statistics(
         True,
     )
     assert (device.value, device.live) == ("/dev/null", False)
+    assert (weights.type, weights.value, weights.high) == ("float[1:3]", "[1.0]", "9")
     figures = arm_proxy.getStatistics()
     assert figures.period == 1
     assert figures.cycles > 3
@@ -47,10 +48,15 @@ def test_set_parameters_changes_live_values_or_nothing(
         ({"rate": "fast"}, "number"),
         ({"rates": "20"}, "rate"),
         ({"device": "/dev/tty"}, "live"),
+        ({"weights": "1, 2, x"}, "`weights[2]` must be a number, not `x`"),
+        ({"weights": "1, 2, 3, 4"}, "`weights` has 4 elements, it must have 1 to 3"),
+        ({"weights[1]": "2"}, "`weights` has 1 element, there is no [1]"),
     ):
         with pytest.raises(Refusal) as caught:
             arm_proxy.setParameters(changes)
         assert message in caught.value.reason
+    arm_proxy.setParameters({"weights": "[2, 3]", "weights[1]": "4"})
+    assert arm.params.weights == [2.0, 4.0]
     arm.refusing = True
     with pytest.raises(Refusal) as caught:
         arm_proxy.setParameters({"rate": "30"})

@@ -77,7 +77,7 @@ def test_saved_parameters_round_trip_random_values(
     [
         ("speed: 3\n", "speed"),
         ("rate: fast\n", "number"),
-        ("rate: [1]\n", "not of the form `path: value`"),
+        ("rate: [1]\n", "`rate` must be a number, not a list"),
         ("'a b': 1\n", "not of the form `path: value`"),
         ("motors[4].min: 1\n", "motors"),
         ("rate: {\n", "config.saved.yaml"),

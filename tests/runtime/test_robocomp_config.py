@@ -162,7 +162,7 @@ def test_parameters_load_reports_position_in_old_configuration(tmp_path: Path) -
         load(tmp_path, "device = x\nnonsense\n  rate = fast # Hz\n= 5\n", suffix="")
     assert error_lines(caught.value) == [
         "2:1 a line has the form `key = value`",
-        "3:3 `rate` must be a number, not `fast`",
+        "3:10 `rate` must be a number, not `fast`",
         "4:1 a line has the form `key = value`",
     ]
 

@@ -27,15 +27,16 @@ StartAt = Callable[..., ReflexHarness]
 
 @pytest.fixture
 def start_at(start_reflex: Callable[..., ReflexHarness]) -> StartAt:
-    """Starts the reflex of NAO's left arm in a pose."""
+    """Starts the reflex of NAO's left arm in the last of some poses, reached in this order."""
 
-    def start(pose: tuple[float, ...], **params: object) -> ReflexHarness:
+    def start(*poses: tuple[float, ...], **params: object) -> ReflexHarness:
         forces = {"threshold": 0.03, "full": 0.12, "hold": 1.0}
         harness = start_reflex("nao_h25", "left_arm", PhysicalRobot, **{**forces, **params})
         harness.wait_until_watching()
         harness.reflex.enable(False)
-        harness.robot.move(np.array(pose), harness.robot.part.speed_limits * 0.2)
-        harness.run(2.5)
+        for pose in poses:
+            harness.robot.move(np.array(pose), harness.robot.part.speed_limits * 0.2)
+            harness.run(2.5)
         harness.robot.moves.clear()
         harness.reflex.enable(True)
         return harness
@@ -119,6 +120,22 @@ def test_reflex_ignores_contact_of_robot_with_itself(start_at: StartAt, tmp_path
         assert bool(counted) == (not params)
     assert responses[0] == 0
     assert responses[1] > 0
+
+
+def test_reflex_does_not_return_through_own_body(
+    start_at: StartAt, caplog: pytest.LogCaptureFixture
+) -> None:
+    """The arm came around the body; the straight way to the start pose leads through it."""
+    harness = start_at(
+        (0.37, 0.6, 0.37, 0.6, 0.0),
+        (-0.33, 0.6, 2.52, 1.35, -1.74),
+        (-0.33, 0.32, 2.52, 1.35, -1.74),
+    )
+    harness.robot.press(harness.field("upper_arm_outer"), 0.004, 0.2)
+    assert largest_own_force(harness, 4.0) == 0.0
+    assert harness.robot.moves, "it was not felt"
+    harness.run_until("Watching")
+    assert "the arm stays: every way back would press it against the robot" in caplog.text
 
 
 def test_close_points_are_on_both_limbs_of_a_flexed_arm() -> None:

@@ -30,6 +30,7 @@ class BridgeContext:
     """The declarations of one bridge while they are resolved.
 
     A name whose value is None is declared, but faulty: what uses it gives no further finding.
+    `declared` are the names in the declarations of the file, by their text.
     `further_modules` are those that the types of actions need besides the imports. `is_complete`:
     the file has no syntax errors, so an unknown name is an error of its own.
     """
@@ -52,6 +53,7 @@ class BridgeContext:
         self.inputs: dict[str, BridgeInput | None] = {}
         self.functions: dict[str, BridgeFunction | None] = {}
         self.hubs: dict[str, BridgeHub | None] = {}
+        self.declared: dict[str, Span] = {}
         self.used_names: set[str] = set()
         self.port_names: set[str] = set()
         self.further_modules: list[Module] = []

@@ -54,6 +54,16 @@ def value_for(node: ast.Expression, target: ValueTarget, scope: Scope) -> Expres
         return None
 
 
+def fitted(
+    node: ast.Expression, value: Expression, target: ValueTarget, scope: Scope
+) -> Expression | None:
+    """As `value_for`, if the typed expression `value` of `node` is known."""
+    try:
+        return _enumerator(node, target, scope) or fit(value, target, scope.context)
+    except FaultyExpression:
+        return None
+
+
 def typed(node: ast.Expression, scope: Scope) -> Expression:
     """The typed expression. Raises `FaultyExpression`."""
     return _TYPED[type(node)](node, scope)
@@ -121,7 +131,7 @@ def _member(node: ast.Member, scope: Scope) -> Expression:
         scope.context.fail(codes.INVALID_SELECTION, node.name.span, message, help_)
     names = [field.name for field in struct.fields]
     if node.name.text not in names:
-        reject_field(node.name, f"`{struct.name}`", names, scope.context)
+        reject_field(node.name, f"`{struct.name}`", struct.fields, scope.context)
     return field_of(value, struct.fields[names.index(node.name.text)]).replace(span=node.span)
 
 
@@ -191,7 +201,7 @@ def _enumerator(node: ast.Expression, target: ValueTarget, scope: Scope) -> Expr
     if node.name.text not in names:
         if nearest(node.name.text, scope.names()) is not None:
             reject_name(node.name, scope.names(), scope.context)
-        reject_field(node.name, f"`{target.type.name}`", names, scope.context)
+        reject_field(node.name, f"`{target.type.name}`", target.type.enumerators, scope.context)
     return ConstantValue(node.span, target.type, "", None, node.name.text)
 
 

@@ -42,7 +42,6 @@ class HubResolver:
         self._open: list[tuple[str, Name]] = []
         context.hubs |= dict.fromkeys(self._trees)
         self._done: set[str] = set()
-        self.scope = BridgeScope(context, self.find, has_time=False)
 
     def resolve_all(self) -> tuple[BridgeHub, ...]:
         """All valid hubs, in order of writing."""
@@ -78,12 +77,14 @@ class HubResolver:
         )
 
     def _build(self, tree: ast.Hub) -> BridgeHub | None:
+        # No attribute: it would be in a cycle with the resolver.
+        scope = BridgeScope(self._context, self.find, has_time=False)
         values: list[Expression] = []
         max_age_s = _seconds(tree.max_age, "max_age", self._context)
         is_valid = True
         for node in tree.values:
             try:
-                value = typed(node, self.scope)
+                value = typed(node, scope)
                 inner = self._parts(value)
             except FaultyExpression:
                 is_valid = False

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 
 from robocomp_dsl.check.bdsl.assignments import build_values
 from robocomp_dsl.check.bdsl.context import BridgeContext, FaultyExpression
-from robocomp_dsl.check.bdsl.expressions import typed, value_for
+from robocomp_dsl.check.bdsl.expressions import fitted, typed, value_for
 from robocomp_dsl.check.bdsl.message_types import item_type
 from robocomp_dsl.check.bdsl.operations import (
     PortKind,
@@ -230,5 +230,5 @@ def _of_value(
     used = own_topic(PortKind.OUTPUT, tree.name, UnitType(message, unit), tree.span, context)
     param = used.operation.inputs[0]
     target = ValueTarget(f"the message of `{tree.name.text}`", message, unit)
-    fitted = value_for(node, target, scope)
-    return used, (BuiltValue(param, fitted),) if fitted else None
+    built = fitted(node, value, target, scope)
+    return used, (BuiltValue(param, built),) if built else None

@@ -52,7 +52,7 @@ def _resolve(path: ast.Path, params: tuple[Param, ...], context: BridgeContext) 
             )
     names = [param.name for param in params]
     if first.name.text not in names:
-        reject_field(first.name, "the message" if only else "the operation", names, context)
+        reject_field(first.name, "the message" if only else "the operation", params, context)
     param = params[names.index(first.name.text)]
     target = ValueTarget("", param.type, param.unit)
     parts: list[Field | int] = []
@@ -76,7 +76,7 @@ def _follow(
             context.fail(codes.INVALID_SELECTION, part.name.span, message)
         names = [field.name for field in struct.fields]
         if part.name.text not in names:
-            reject_field(part.name, f"`{struct.name}`", names, context)
+            reject_field(part.name, f"`{struct.name}`", struct.fields, context)
         field = struct.fields[names.index(part.name.text)]
         resolved.append(field)
         target = _indexed(part, target.field(field), resolved, context)

@@ -7,6 +7,7 @@ the errors of the files that it imports.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import TypeAlias
 
 from robocomp_dsl.check.bdsl.actions import resolve_action
@@ -20,6 +21,7 @@ from robocomp_dsl.check.bdsl.services import resolve_service
 from robocomp_dsl.check.bdsl.types_module import TypesModule
 from robocomp_dsl.check.cdsl.middlewares import DEFAULT, find_middleware
 from robocomp_dsl.check.codes import bridge as codes
+from robocomp_dsl.check.names.duplicates import Named
 from robocomp_dsl.check.workspace.loaded import transitive_errors
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.check.workspace.workspace import Workspace
@@ -44,6 +46,7 @@ def resolve_bdsl(
     written = find_middleware(tree.middleware, workspace.middlewares, report)
     context.middleware = written or DEFAULT
     valid = check_names([*_named(tree), *tree.actions], context)
+    context.declared = {item.name.text: item.name.span for item in _all_named(tree)}
     for ports in (tree.inputs, tree.outputs, tree.services):
         context.port_names.update(port.name.text.lower() for port in ports)
     _declare(tree, valid, context)
@@ -84,6 +87,15 @@ def resolve_bdsl(
 
 def _named(tree: ast.Bridge) -> tuple[_Declaration, ...]:
     return (*tree.inputs, *tree.functions, *tree.hubs, *tree.outputs, *tree.services)
+
+
+def _all_named(tree: ast.Bridge) -> Iterator[Named]:
+    """What has a name in a bridge, also inside of services and actions."""
+    yield from _named(tree)
+    for service in tree.services:
+        yield from service.calls
+    for action in tree.actions:
+        yield from action.states
 
 
 def _declare(tree: ast.Bridge, valid: set[int], context: BridgeContext) -> None:

@@ -5,7 +5,7 @@ In: a name, or a name and a member of it. Out: a typed expression, or a finding.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import NoReturn, Protocol, TypeVar
 
 from robocomp_dsl.check.bdsl.context import BridgeContext, FaultyExpression
@@ -36,6 +36,18 @@ ParamValue = Callable[[Span, Param], Expression]
 Item = TypeVar("Item")
 
 
+class NamedMember(Protocol):
+    """A field, a parameter or an enumerator of the model."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def span(self) -> Span:
+        """Where its name is declared."""
+
+
 class BridgeScope:
     """The names of outputs and hubs: inputs, hubs, and for outputs `now` and `counter`."""
 
@@ -59,14 +71,14 @@ class BridgeScope:
         """What `name` stands for. Raises `FaultyExpression`."""
         word, span = name.text, name.span
         self.context.used_names.add(word)
-        if word not in self.names():
-            self._reject(name)
         if word in self.context.inputs:
             return input_value(span, _declared(self.context.inputs[word]))
         if word in self.context.hubs:
             hub = _declared(self._find_hub(name))
             length = hub.type.count if hub.length is None else hub.length
             return HubValue(span, hub.type, hub.type.unit, length, hub)
+        if word not in self.names():
+            self._reject(name)
         return _now_or_counter(word, span)
 
     def _reject(self, name: Name) -> NoReturn:
@@ -188,12 +200,16 @@ def reject_name(name: Name, known: list[str], context: BridgeContext, noun: str 
         f"the bridge declares no {noun}`{name.text}`",
         known,
         f"known here: {join_names(known) or 'nothing'}",
+        declared=[context.declared[text] for text in known if text in context.declared],
     )
     raise FaultyExpression
 
 
-def reject_field(name: Name, owner: str, known: list[str], context: BridgeContext) -> NoReturn:
+def reject_field(
+    name: Name, owner: str, members: Sequence[NamedMember], context: BridgeContext
+) -> NoReturn:
     """Report an unknown field or parameter of `owner`. Raises `FaultyExpression`."""
+    known = [member.name for member in members]
     report_unknown_name(
         context.report,
         value_codes.UNKNOWN_BRIDGE_FIELD,
@@ -201,6 +217,7 @@ def reject_field(name: Name, owner: str, known: list[str], context: BridgeContex
         f"{owner} has no `{name.text}`",
         known,
         f"it has {join_names(known) or 'none'}",
+        declared=[member.span for member in members if member.span.text == member.name],
     )
     raise FaultyExpression
 
@@ -230,7 +247,7 @@ def _member(
     for param in params:
         if param.name == member.text:
             return value(member.span, param)
-    reject_field(member, "the operation", [param.name for param in params], context)
+    reject_field(member, "the operation", params, context)
 
 
 def _now_or_counter(word: str, span: Span) -> Expression:

@@ -87,8 +87,7 @@ def _base(ref: ast.TypeRef, name: str, context: BridgeContext) -> Type | None:
         return None
     if _is_special(ref.name, context):
         return None
-    own: dict[str, Type] = {}
-    names = TypeResolver(context.types.name, own, lambda _: None, context.scope, context.report)
+    names = TypeResolver(context.types.name, {}, lambda _: None, context.scope, context.report)
     return names.data(ref.name)
 
 

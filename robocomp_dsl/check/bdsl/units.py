@@ -5,7 +5,7 @@ In: units as written and typed expressions. Out: converted expressions, and find
 
 from __future__ import annotations
 
-from functools import cache
+from functools import lru_cache
 
 from robocomp_dsl.check.bdsl.context import BridgeContext, FaultyExpression
 from robocomp_dsl.check.bdsl.type_words import a_type
@@ -35,6 +35,8 @@ from robocomp_dsl.model.types import (
 from robocomp_dsl.syntax.ast.base import Unit
 
 _NANOSECOND = units.parse_unit("ns")
+_MOST_UNITS = 1000
+"""Units whose conversion is cached; an editor checks many that are being typed."""
 
 
 def has_numbers(type_: ValueType) -> bool:
@@ -78,7 +80,7 @@ def valid_unit(unit: Unit, report: Report) -> str:
     except units.InvalidUnit as error:
         report.add(codes.INVALID_UNIT, unit.span, f"invalid unit: {error}")
         return ""
-    for word in units.unknown_words(text):
+    for word in _unknown_words(text):
         symbol = WRITTEN_OUT.get(word.lower())
         guess = symbol or nearest(word, units.known_units())
         is_case = guess is not None and (symbol or guess.lower() == word.lower())
@@ -94,13 +96,28 @@ def valid_unit(unit: Unit, report: Report) -> str:
     return text
 
 
-@cache
+@lru_cache(maxsize=_MOST_UNITS)
 def parsed(text: str) -> units.MeasureUnit | None:
     """The unit of an imported or checked text; None if it is not valid."""
     try:
         return units.parse_unit(text)
     except units.InvalidUnit:
         return None
+
+
+@lru_cache(maxsize=_MOST_UNITS)
+def _unknown_words(text: str) -> tuple[str, ...]:
+    """The words of a valid unit that have no conversion."""
+    return tuple(units.unknown_words(text))
+
+
+@lru_cache(maxsize=_MOST_UNITS)
+def _conversion(source: str, target: str, *, ignore_angle: bool) -> tuple[float, float] | None:
+    """Factor and offset between two units that are valid; None if their dimensions differ."""
+    first, second = units.parse_unit(source), units.parse_unit(target)
+    if ignore_angle:
+        first, second = first.without_angle(), second.without_angle()
+    return units.conversion(first, second)
 
 
 def with_unit(type_: ValueType, unit: str) -> ValueType:
@@ -126,12 +143,10 @@ def convert(value: Expression, unit: str, what: str, context: BridgeContext) -> 
         return value
     if not value.unit:
         return _mixed(value, unit, what, context)
-    source, target = parsed(value.unit), parsed(unit)
-    if source is None or target is None:
+    if parsed(value.unit) is None or parsed(unit) is None:
         return value
-    if isinstance(value, Arithmetic) and value.operator in "*/":
-        source, target = source.without_angle(), target.without_angle()
-    factors = units.conversion(source, target)
+    is_product = isinstance(value, Arithmetic) and value.operator in "*/"
+    factors = _conversion(value.unit, unit, ignore_angle=is_product)
     if factors is None:
         message = f"`{value.unit}` cannot be converted to `{unit}`, the unit of {what}"
         context.fail(codes.UNIT_MISMATCH, value.span, message)

@@ -14,7 +14,7 @@ from robocomp_dsl.check.cdsl.middlewares import (
     find_middleware,
     port_middlewares,
 )
-from robocomp_dsl.check.cdsl.options import expand_options
+from robocomp_dsl.check.cdsl.options import expand_options, resolve_imports
 from robocomp_dsl.check.cdsl.ports import port_names
 from robocomp_dsl.check.codes import names as codes
 from robocomp_dsl.check.doc_comments import plain
@@ -50,7 +50,7 @@ def resolve_cdsl(
 ) -> ResolvedComponent:
     """Resolve the component `tree` of a file."""
     expanded = expand_options(file.tree, tree, report)
-    links = workspace.modules.resolve_imports(expanded.imports, report)
+    links = resolve_imports(expanded, workspace.modules, report)
     report.extend(transitive_errors(links))
     scope = workspace.modules.import_scope(file, links)
     names = port_names(expanded.ports, report)

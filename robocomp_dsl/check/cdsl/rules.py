@@ -15,12 +15,19 @@ from robocomp_dsl.syntax.ast import cdsl as ast
 
 
 def check_cdsl_rules(resolved: ResolvedComponent, report: Report) -> None:
-    """Check the rules of a component."""
+    """Check the rules of a component; a service has no published operations."""
+    published: dict[int, list[Operation]] = {}
     for written, port in resolved.pairs:
         if port.role.is_topic:
             _check_topic(written, port, report)
-        else:
-            _check_service(written, port, report)
+            continue
+        interface = port.interface
+        if id(interface) not in published:
+            published[id(interface)] = [
+                o for o in interface.operations if port.pattern(o) is Pattern.PUBLISH
+            ]
+        if published[id(interface)]:
+            _report_role(written, port, published[id(interface)], report)
 
 
 def _check_topic(written: ast.Port, port: Port, report: Report) -> None:
@@ -42,13 +49,6 @@ def _check_topic(written: ast.Port, port: Port, report: Report) -> None:
     commands = [o for o in port.interface.operations if port.pattern(o) is Pattern.COMMAND]
     if commands:
         _report_role(written, port, commands, report)
-
-
-def _check_service(written: ast.Port, port: Port, report: Report) -> None:
-    """Report published operations in a service."""
-    published = [o for o in port.interface.operations if port.pattern(o) is Pattern.PUBLISH]
-    if published:
-        _report_role(written, port, published, report)
 
 
 def _report_role(

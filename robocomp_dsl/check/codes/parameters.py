@@ -128,13 +128,14 @@ Right:
 """,
 )
 
-GROUP_LENGTH = Code(
+LIST_LENGTH = Code(
     "RC408",
     Severity.ERROR,
-    "invalid length of a group list",
+    "invalid length of a list",
     """\
-The numbers in brackets are the minimum and maximum number of groups, from 0 to 100000. `motors[3]`
-is a list of exactly 3 groups, `motors[]` of any length; `motors` without brackets is one group.
+The numbers in brackets are the minimum and maximum number of groups or values, from 0 to 100000.
+`motors[3]` is a list of exactly 3 groups, `motors[]` of any length; `motors` without brackets is
+one group.
 
 Wrong:
 
@@ -143,5 +144,59 @@ Wrong:
 Right:
 
     motors[0:32] { name string; };
+""",
+)
+
+LIST_DEFAULT_LENGTH = Code(
+    "RC409",
+    Severity.ERROR,
+    "the default of a list has a wrong number of values",
+    """\
+The default of a list has as many values as the brackets after its name permit. One value without
+braces is the default of each element that the list has at least.
+
+Wrong:
+
+    weights[2:8] float {1.0};
+
+Right:
+
+    weights[2:8] float {1.0, 1.0, 0.5};
+""",
+)
+
+DEFAULT_IS_LIST = Code(
+    "RC410",
+    Severity.ERROR,
+    "a list is the default of a parameter that is no list",
+    """\
+The brackets after its name make a parameter a list, with the smallest and the largest number of its
+elements: `[1:8]`; `[3]` is exactly three, `[]` any number.
+
+Wrong:
+
+    weights float {1.0, 2.0};
+
+Right:
+
+    weights[2] float {1.0, 2.0};
+""",
+)
+
+UNUSED_DEFAULT = Code(
+    "RC412",
+    Severity.WARNING,
+    "the default of a list is not used",
+    """\
+One value without braces is the default of each element that a list has at least. A list that may be
+empty starts empty, so such a default is not used.
+
+Wrong:
+
+    weights[0:8] float 1.0;
+
+Right:
+
+    weights[0:8] float {1.0};
 """,
 )

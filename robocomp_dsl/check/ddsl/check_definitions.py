@@ -92,6 +92,7 @@ def _at_instance(diagnostic: Diagnostic, scope: DeploymentScope) -> Diagnostic:
         label="",
         notes=(Note(diagnostic.span, "this part of its definition"), *diagnostic.notes),
         fix=None,
+        unknown=None,
     )
 
 

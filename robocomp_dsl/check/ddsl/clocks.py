@@ -12,6 +12,7 @@ from robocomp_dsl.check.codes import clock as clock_codes
 from robocomp_dsl.check.codes import deployment as deployment_codes
 from robocomp_dsl.check.ddsl.scopes import NAME_SEPARATOR
 from robocomp_dsl.check.literals import join_names
+from robocomp_dsl.check.names.unknown_names import report_unknown_name
 from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.model.component import Port, Role
@@ -147,7 +148,7 @@ def _named(
     match = known.get(name.text) or (inside[0] if len(inside) == 1 else None)
     if match is None:
         if whole:
-            _report_unknown(name, list(known), report)
+            _report_unknown(name, instances, report)
         return None
     if match not in able and whole:
         names = [instance.name for instance in able]
@@ -164,15 +165,16 @@ def _named(
     return match if match in able else None
 
 
-def _report_unknown(name: Name, known: Sequence[str], report: Report) -> None:
-    guess = nearest(name.text, known)
-    report.add(
+def _report_unknown(name: Name, instances: Sequence[Instance], report: Report) -> None:
+    known = [instance.name for instance in instances]
+    report_unknown_name(
+        report,
         deployment_codes.UNKNOWN_INSTANCE,
-        name.span,
+        name,
         f"there is no component `{name.text}` in this deployment",
-        label=f"did you mean `{guess}`?" if guess else "",
-        help="" if guess else f"there are {join_names(known) or 'none'}",
-        fix=replace_fix(name.span, guess) if guess else None,
+        known,
+        f"there are {join_names(known) or 'none'}",
+        declared=[instance.span for instance in instances],
     )
 
 

@@ -178,8 +178,8 @@ def _port(
         )
         return None
     invalid = instance.component.invalid_ports
-    if tree.port.text in invalid:
-        return None
+    if tree.port.text in invalid or tree.port.text != tree.port.span.text:
+        return None  # reported where the port, or its export from a group, is declared
     known = [port.name for port in instance.component.ports if port.role in roles]
     known += sorted(invalid)
     guess = nearest(tree.port.text, known)

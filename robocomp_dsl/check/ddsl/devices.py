@@ -7,16 +7,18 @@ it checks them when it starts.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from collections.abc import Set as AbstractSet
 
 from robocomp_dsl.check.codes import devices as codes
+from robocomp_dsl.check.codes.deployment import SETTING_TYPE
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.check.names.duplicates import report_duplicate, unique_by_name
-from robocomp_dsl.check.workspace.imports import replace_fix
-from robocomp_dsl.diagnostics import Note, Report, nearest
+from robocomp_dsl.check.names.unknown_names import report_unknown_name
+from robocomp_dsl.diagnostics import Note, Report, is_similar
 from robocomp_dsl.model import types
 from robocomp_dsl.model.devices import Action, Attachment, Device, Devices
 from robocomp_dsl.syntax.ast import ddsl as ast
-from robocomp_dsl.syntax.ast.base import Name
+from robocomp_dsl.syntax.ast.base import LiteralList, Name
 
 ATTACHMENT_VERBS = ("attach", "detach")
 CALIBRATOR_VERBS = ("calibrate", "park")
@@ -28,7 +30,8 @@ def resolve_devices(tree: ast.Instance, report: Report) -> Devices:
     known = {tree_node.name.text: tree_node for tree_node in trees}
     attached = _attached(tree.attachments, known, report)
     _report_cycles(attached, report)
-    actions = [_action(tree_node, known, attached, report) for tree_node in tree.actions]
+    faulty = _faulty_attachments(tree.attachments, known)
+    actions = [_action(tree_node, known, attached, faulty, report) for tree_node in tree.actions]
     return Devices(
         tuple(_device(tree_node, report) for tree_node in trees),
         tuple(
@@ -48,6 +51,10 @@ def _device(tree: ast.Device, report: Report) -> Device:
         earlier = first.setdefault(setting.key.text, setting.key)
         if earlier is not setting.key:
             report_duplicate(setting.key, earlier, "parameter", report)
+            continue
+        if isinstance(setting.value, LiteralList):
+            message = f"`{setting.key.text}` of a device is one value, not a list"
+            report.add(SETTING_TYPE, setting.value.span, message)
             continue
         value = setting.value.text if isinstance(setting.value, Name) else setting.value.value
         parameters[setting.key.text] = value
@@ -75,6 +82,17 @@ def _attached(
             )
         _report_duplicate_targets(tree, report)
     return attached
+
+
+def _faulty_attachments(
+    trees: Iterable[ast.Attach], known: Mapping[str, ast.Device]
+) -> frozenset[str]:
+    """The devices that may be attached by a line with an unknown name."""
+    names = [[tree.device.text, *(name.text for name in tree.to)] for tree in trees]
+    unknown = {name for line in names for name in line if name not in known}
+    mentioned = {name for line in names if unknown & {*line} for name in line}
+    meant = {name for name in known if any(is_similar(other, name) for other in unknown)}
+    return frozenset(mentioned | meant)
 
 
 def _report_duplicate_targets(tree: ast.Attach, report: Report) -> None:
@@ -122,6 +140,7 @@ def _action(
     tree: ast.Action,
     known: Mapping[str, ast.Device],
     attached: Mapping[str, ast.Attach],
+    faulty: AbstractSet[str],
     report: Report,
 ) -> Action | None:
     verb, device, by = tree.verb.text.lower(), tree.device, tree.by
@@ -131,6 +150,8 @@ def _action(
         report.add(codes.DEVICE_ACTION, tree.level.span, message, help="for example `level 5`")
         return None
     if not all([_is_declared(name, known, report) for name in (device, by) if name]):  # noqa: C419
+        return None
+    if {device.text, by.text if by else ""} & faulty:
         return None
     if verb in ATTACHMENT_VERBS and device.text not in attached:
         message = f"`{device.text}` has no `attach` line: it cannot be {verb}ed"
@@ -164,15 +185,15 @@ def _check_calibrator(
 def _is_declared(name: Name, known: Mapping[str, ast.Device], report: Report) -> bool:
     if name.text in known:
         return True
-    guess = nearest(name.text, known)
-    report.add(
+    report_unknown_name(
+        report,
         codes.UNKNOWN_DEVICE,
-        name.span,
+        name,
         f"unknown device `{name.text}`",
-        label=f"did you mean `{guess}`?" if guess else "",
-        help=f"the component has {join_names(list(known))}"
+        known,
+        f"the component has {join_names(list(known))}"
         if known
         else f"declare it: `device {name.text} : control_board;`",
-        fix=replace_fix(name.span, guess) if guess else None,
+        declared=[device.name.span for device in known.values()],
     )
     return False

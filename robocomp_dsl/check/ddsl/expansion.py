@@ -7,6 +7,7 @@ inner one and those of the component.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_dsl.check.codes import deployment as deployment_codes
@@ -14,10 +15,13 @@ from robocomp_dsl.check.codes import groups as codes
 from robocomp_dsl.check.ddsl.definitions import DefinitionFiles
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.check.names.duplicates import report_duplicate
-from robocomp_dsl.check.workspace.imports import replace_fix
-from robocomp_dsl.diagnostics import Note, Report, nearest
+from robocomp_dsl.check.names.unknown_names import report_unknown_name
+from robocomp_dsl.diagnostics import Note, Report
+from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Name, Node
+
+_INDEX = re.compile(r"\[\d+\]\Z")
 
 
 def expand(
@@ -121,16 +125,18 @@ def _check_places(group: ast.Group, definition: ast.Group, report: Report) -> No
 def _merge_settings(
     first: Sequence[ast.Setting], second: Sequence[ast.Setting]
 ) -> tuple[ast.Setting, ...]:
-    """Both, without the settings in `second` that `first` replaces."""
+    """Both, without the settings in `second` that `first` replaces; a list has elements."""
     replaced = {setting.key.text for setting in first}
-    return (*first, *(setting for setting in second if setting.key.text not in replaced))
+    rest = (s for s in second if s.key.text not in replaced)
+    return (*first, *(s for s in rest if _INDEX.sub("", s.key.text) not in replaced))
 
 
 def settings_of_members(
-    group: ast.Group, outer: Sequence[ast.Setting], members: Sequence[str], report: Report
+    group: ast.Group, outer: Sequence[ast.Setting], members: Mapping[str, Span], report: Report
 ) -> dict[str, list[ast.Setting]]:
     """The settings of a group and of those around it, by member, with the rest of their keys.
 
+    `members` are the names of the components and groups in the group, and where they are declared.
     `outer` replace those of the group.
     """
     first: dict[str, Name] = {}
@@ -162,24 +168,22 @@ def with_settings(instance: ast.Instance, outer: Sequence[ast.Setting]) -> ast.I
 
 
 def _report_unknown_member(
-    key: Name, member: str, group: ast.Group, members: Sequence[str], report: Report
+    key: Name, member: str, group: ast.Group, members: Mapping[str, Span], report: Report
 ) -> None:
     if member in members:
         message = f"`{key.text}` names no parameter"
         help_ = f"write the parameter, too: `set {member}.PARAMETER = …;`"
         report.add(codes.UNKNOWN_MEMBER, key.span, message, help=help_)
         return
-    guess = nearest(member, members)
     start = key.span.start
-    span = key.span.subspan(start, start + len(member))
-    help_ = f"it has {join_names(list(members)) or 'none'}: `set COMPONENT.PARAMETER = …;`"
-    report.add(
+    report_unknown_name(
+        report,
         codes.UNKNOWN_MEMBER,
-        span,
+        Name(key.span.subspan(start, start + len(member)), member),
         f"there is no component `{member}` in the group `{group.name.text}`",
-        label=f"did you mean `{guess}`?" if guess else "",
-        help="" if guess else help_,
-        fix=replace_fix(span, guess) if guess else None,
+        members,
+        f"it has {join_names(list(members)) or 'none'}: `set COMPONENT.PARAMETER = …;`",
+        declared=members.values(),
     )
 
 

@@ -12,6 +12,7 @@ from robocomp_dsl.check.codes import deployment as codes
 from robocomp_dsl.check.ddsl.one_process import with_process
 from robocomp_dsl.check.ddsl.scopes import DeploymentScope, resolve_port
 from robocomp_dsl.check.literals import join_names
+from robocomp_dsl.check.names.unknown_names import report_unknown_name
 from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.model.component import Port
@@ -61,6 +62,28 @@ def _exports(
         if port is not None:
             exports.append(Export(name, instance, port, tree.port.span))
     return tuple(exports)
+
+
+def check_exports(scope: DeploymentScope, report: Report) -> None:
+    """Report exports of components that are not in the group."""
+    for nested in scope.descendants:
+        for export in nested.exports.values():
+            name = export.target.instance
+            if name.text in nested.instances:
+                continue
+            if name.text in nested.groups:
+                resolve_port(export.target, nested, report)
+                continue
+            known = [*nested.instances, *nested.groups]
+            report_unknown_name(
+                report,
+                codes.UNKNOWN_INSTANCE,
+                name,
+                f"there is no component `{name.text}` in the group `{nested.tree.name.text}`",
+                known,
+                f"it has {join_names(known) or 'none'}",
+                declared=nested.own_declarations(),
+            )
 
 
 def _port(name: str, tree: ast.Export, instance: Instance, report: Report) -> Port | None:

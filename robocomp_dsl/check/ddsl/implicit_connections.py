@@ -9,7 +9,7 @@ the namespace are not visible.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from robocomp_dsl.check.codes import deployment as codes
@@ -35,9 +35,13 @@ def implicit_connections(
     exports: Exports,
     report: Report,
     *,
+    unclear: Collection[str],
     complete: bool,
 ) -> Iterator[Connection]:
-    """The implicit connections. Unless `complete`, missing peers are not reported."""
+    """The implicit connections. Unless `complete`, missing peers are not reported.
+
+    `unclear` are the names of instances whose component is unknown.
+    """
     connected = {
         (id(connection.source), id(connection.source_port)) for connection in written.connections
     }
@@ -50,7 +54,7 @@ def implicit_connections(
             found = nearest(instance.prefix, servers.visible(instance, port), _prefix)
             if len(found) == 1:
                 yield Connection(instance, port, *found[0], instance.span, implied=True)
-            elif instance.name not in written.faulty_instances and not port.optional:
+            elif not port.optional and not _may_be_connected(instance, found, written, unclear):
                 first = _format_end(instance, found[0], exports) if found else ""
                 others = servers.others(instance, port)
                 candidates = _Candidates(found, others, first)
@@ -65,6 +69,16 @@ def implicit_connections(
             if is_missing and not is_configured(instance, port):
                 others = publishers.others(instance, port)
                 _report_no_publisher(instance, port, _other_branches(instance, others), report)
+
+
+def _may_be_connected(
+    instance: Instance, found: Sequence[End], written: ExplicitConnections, unclear: Collection[str]
+) -> bool:
+    """Whether an error that is reported may hide the server of a required port of `instance`."""
+    if written.faulty_instances & {instance.name, *(end.name for end, _ in found)}:
+        return True
+    groups = {name.rpartition(NAME_SEPARATOR)[0] for name in unclear}
+    return instance.group in groups and all(end.group != instance.group for end, _ in found)
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from robocomp_dsl.check.codes import deployment as codes
 from robocomp_dsl.check.ddsl.scopes import DeploymentScope
 from robocomp_dsl.check.literals import join_names
-from robocomp_dsl.check.workspace.imports import replace_fix
-from robocomp_dsl.diagnostics import Note, Report, nearest
+from robocomp_dsl.check.names.unknown_names import report_unknown_name
+from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.syntax.ast.base import Name
 from robocomp_dsl.syntax.ast.ddsl import Group, Instance
 
@@ -84,14 +84,14 @@ def _known_names(
             continue
         if name.text in farther:
             continue
-        guess = nearest(name.text, [*known, *farther])
-        report.add(
+        report_unknown_name(
+            report,
             codes.UNKNOWN_INSTANCE,
-            name.span,
+            name,
             f"`{instance.name.text}` waits for `{name.text}`, which is not in this deployment",
-            label=f"did you mean `{guess}`?" if guess else "",
-            fix=replace_fix(name.span, guess) if guess else None,
-            help="" if guess else _others(instance, [*known, *farther]),
+            [*known, *farther],
+            _others(instance, [*known, *farther]),
+            declared=[item.name.span for item in known.values()],
         )
     return found
 

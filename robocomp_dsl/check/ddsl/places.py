@@ -52,7 +52,9 @@ def resolve_places(
 ) -> dict[str, InstancePlace]:
     """The places of the instances by qualified name; instances on this machine are missing."""
     written = _written_places(scope, report)
-    resolver = _PlaceResolver(hosts, report)
+    trees = scope.tree.hosts if isinstance(scope.tree, ast.Deployment) else ()
+    labels = [label.span for tree in trees for label in tree.labels]
+    resolver = _PlaceResolver(hosts, labels, report)
     resolved = {id(place): resolver.resolve(place) for place in written.values()}
     resolver.report_unused_hosts(scope)
     return {name: resolved[id(place)] for name, place in written.items()}
@@ -121,8 +123,11 @@ def _own_place(tree: ast.Instance | ast.Group, unit: str, report: Report) -> _Wr
 class _PlaceResolver:
     """Resolves the names of hosts and labels, and knows which hosts are used."""
 
-    def __init__(self, hosts: Mapping[str, Host], report: Report) -> None:
+    def __init__(
+        self, hosts: Mapping[str, Host], label_spans: Sequence[Span], report: Report
+    ) -> None:
         self._hosts = hosts
+        self._label_spans = label_spans
         self._report = report
         self._used: set[str] = set()
 
@@ -186,6 +191,7 @@ class _PlaceResolver:
             f"unknown host `{name.text}`",
             self._hosts,
             f'declare it: `host {name.text} {{ address "10.0.0.2"; }};`',
+            declared=[host.span for host in self._hosts.values() if host.span],
         )
         self._used.add(guess)
         return None
@@ -204,6 +210,7 @@ class _PlaceResolver:
             f"the hosts have {join_names(known)}"
             if known
             else f"add it to a host: `labels {label.text};`",
+            declared=self._label_spans,
         )
         self._used.update(h.name for h in self._hosts.values() if guess in h.labels)
         return ()

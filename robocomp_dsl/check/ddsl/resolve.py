@@ -20,7 +20,7 @@ from robocomp_dsl.check.ddsl.definitions import DefinitionFile, DefinitionFiles
 from robocomp_dsl.check.ddsl.external_connections import resolve_external_connections
 from robocomp_dsl.check.ddsl.externals import report_unused_externals, resolve_externals
 from robocomp_dsl.check.ddsl.flatten import arbitrations_of, connections_of, flatten
-from robocomp_dsl.check.ddsl.groups import resolve_groups, visible_exports
+from robocomp_dsl.check.ddsl.groups import check_exports, resolve_groups, visible_exports
 from robocomp_dsl.check.ddsl.hosts import resolve_hosts
 from robocomp_dsl.check.ddsl.implicit_connections import implicit_connections
 from robocomp_dsl.check.ddsl.instances import InstanceContext, report_shared_ports, resolve_instance
@@ -37,7 +37,6 @@ from robocomp_dsl.check.ddsl.own_ports import report_shared_addresses
 from robocomp_dsl.check.ddsl.places import resolve_places
 from robocomp_dsl.check.ddsl.scopes import (
     DeploymentScope,
-    check_exports,
     scopes_of,
 )
 from robocomp_dsl.check.doc_comments import plain
@@ -132,6 +131,7 @@ class _Resolver:
             imported,
             visible_exports(scope),
             report,
+            unclear=unclear,
             complete=complete,
         )
         all_connections = within_processes((*written.connections, *implied), known_middlewares)

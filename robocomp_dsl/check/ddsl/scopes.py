@@ -16,8 +16,9 @@ from robocomp_dsl.check.ddsl.expansion import expand, settings_of_members, with_
 from robocomp_dsl.check.ddsl.prefixes import prefix_of
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.check.names.duplicates import report_duplicate, unique_by_name
-from robocomp_dsl.check.workspace.imports import replace_fix
-from robocomp_dsl.diagnostics import Note, Report, nearest
+from robocomp_dsl.check.names.unknown_names import report_unknown_name
+from robocomp_dsl.diagnostics import Note, Report
+from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Name
 
@@ -108,6 +109,12 @@ class DeploymentScope:
         scopes = self.visible_scopes
         return [name for nested in scopes for name in (*nested.instances, *nested.groups)]
 
+    def own_declarations(self) -> list[Span]:
+        """The names in the declarations of this scope."""
+        groups = (group.tree for group in self.groups.values())
+        trees = (*self.instances.values(), *groups, *self.externals.values())
+        return [tree.name.span for tree in trees]
+
 
 def scopes_of(
     tree: ast.Deployment, definitions: DefinitionFiles, report: Report
@@ -128,7 +135,8 @@ def _filled(
     tree = scope.tree
     instances = unique_by_name(tree.instances, "component", report)
     groups = unique_by_name(tree.groups, "group", report)
-    members = [i.name.text for i in instances] + [group.name.text for group in groups]
+    members = {tree.name.text: tree.name.span for tree in instances}
+    members |= {tree.name.text: tree.name.span for tree in groups}
     outer: dict[str, list[ast.Setting]] = {}
     if isinstance(tree, ast.Group):
         outer = settings_of_members(tree, settings, members, report)
@@ -240,7 +248,6 @@ def _is_export_cycle(export: ast.Export, scope: DeploymentScope) -> bool:
 def _unknown(name: Name, scope: DeploymentScope, report: Report) -> None:
     root = [*scope.visible_scopes][-1]
     known = [*scope.visible_names(), *root.externals]
-    guess = nearest(name.text, known)
     hidden = next(
         (
             nested.path
@@ -250,51 +257,30 @@ def _unknown(name: Name, scope: DeploymentScope, report: Report) -> None:
         "",
     )
     inside = f"it is in the group `{hidden}`; only its exports are visible here"
-    report.add(
+    report_unknown_name(
+        report,
         codes.UNKNOWN_INSTANCE,
-        name.span,
+        name,
         f"there is no component `{name.text}` "
         + ("in this deployment" if not hidden else "that is visible here"),
-        label=f"did you mean `{guess}`?" if guess else "",
-        help=inside if hidden else "" if guess else f"it has {join_names(known)}",
-        fix=replace_fix(name.span, guess) if guess and not hidden else None,
+        () if hidden else known,
+        inside if hidden else f"it has {join_names(known)}",
+        declared=[span for nested in scope.visible_scopes for span in nested.own_declarations()],
     )
 
 
 def _not_exported(ref: ast.PortRef, group: DeploymentScope, report: Report) -> None:
     known = list(group.exports)
-    guess = nearest(ref.port.text, known)
     name = ref.instance.text
-    report.add(
+    report_unknown_name(
+        report,
         codes.UNKNOWN_PORT,
-        ref.port.span,
+        ref.port,
         f"the group `{name}` does not export `{ref.port.text}`",
-        label=f"did you mean `{guess}`?" if guess else "",
+        known,
+        f"it exports {join_names(known)}"
+        if known
+        else f"write `export {ref.port.text} from …;` in it",
+        declared=[export.port.span for export in group.exports.values()],
         notes=[Note(group.tree.name.span, f"`{name}` is declared here")],
-        help=f"write `export {ref.port.text} from …;` in it"
-        if not known
-        else f"it exports {join_names(known)}",
-        fix=replace_fix(ref.port.span, guess) if guess else None,
     )
-
-
-def check_exports(scope: DeploymentScope, report: Report) -> None:
-    """Report exports of components that are not in the group."""
-    for nested in scope.descendants:
-        for export in nested.exports.values():
-            name = export.target.instance
-            if name.text in nested.instances:
-                continue
-            if name.text in nested.groups:
-                resolve_port(export.target, nested, report)
-                continue
-            known = [*nested.instances, *nested.groups]
-            guess = nearest(name.text, known)
-            report.add(
-                codes.UNKNOWN_INSTANCE,
-                name.span,
-                f"there is no component `{name.text}` in the group `{nested.tree.name.text}`",
-                label=f"did you mean `{guess}`?" if guess else "",
-                help="" if guess else f"it has {join_names(known) or 'none'}",
-                fix=replace_fix(name.span, guess) if guess else None,
-            )

@@ -14,6 +14,7 @@ from pathlib import Path
 from robocomp_dsl.check.codes import names as codes
 from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.diagnostics import Report, nearest
+from robocomp_dsl.syntax.ast.base import Node
 from robocomp_dsl.syntax.ast.ddsl import Setting
 
 _CONFIGURATION = Path("etc", "config.yaml")
@@ -30,8 +31,8 @@ class PathSearch:
     config: Path | None
     is_local: bool
 
-    def find(self, value: str, setting: Setting, report: Report) -> Path | None:
-        """The absolute path of `value`, which is relative to the file of `setting`.
+    def find(self, value: str, setting: Setting, written: Node, report: Report) -> Path | None:
+        """The absolute path of `value`, which is `written` in `setting`, relative to its file.
 
         None for an absolute path, for one that only the component finds, and, with a diagnostic,
         for one that does not exist.
@@ -39,14 +40,14 @@ class PathSearch:
         absolute = Path(value).expanduser()
         if absolute.is_absolute():
             if self.is_local and not _exists(absolute):
-                _report_missing(value, absolute, setting, report)
+                _report_missing(value, absolute, setting, written, report)
             return None
         beside = setting.value.span.source.path
         path = beside.parent / value
         if _exists(path):
             return Path(os.path.abspath(path))  # noqa: PTH100 - keeps symbolic links
         if not self._component_finds(value):
-            _report_missing(value, path, setting, report)
+            _report_missing(value, path, setting, written, report)
         return None
 
     def _component_finds(self, value: str) -> bool:
@@ -74,7 +75,9 @@ def _exists(path: Path) -> bool:
         return False
 
 
-def _report_missing(value: str, path: Path, setting: Setting, report: Report) -> None:
+def _report_missing(
+    value: str, path: Path, setting: Setting, written: Node, report: Report
+) -> None:
     try:
         known = sorted(entry.name for entry in os.scandir(path.parent))
     except (OSError, ValueError):
@@ -84,9 +87,9 @@ def _report_missing(value: str, path: Path, setting: Setting, report: Report) ->
     guess = (Path(value).parent / near).as_posix() if near else ""
     report.add(
         codes.MISSING_FILE,
-        setting.value.span,
+        written.span,
         f"cannot find `{path}`",
         label=f"did you mean `{guess}`?" if guess else "",
         help=f"`{setting.key.text}` is a path, relative to the folder of `{place}`",
-        fix=replace_fix(setting.value.span, f'"{guess}"') if guess else None,
+        fix=replace_fix(written.span, f'"{guess}"') if guess else None,
     )

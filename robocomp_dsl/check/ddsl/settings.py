@@ -12,15 +12,15 @@ from pathlib import Path
 
 from robocomp_dsl.check.codes import deployment as codes
 from robocomp_dsl.check.ddsl.setting_paths import PathSearch
-from robocomp_dsl.check.literals import OutOfRange, TypeMismatch, join_names
+from robocomp_dsl.check.ddsl.setting_values import value_of
+from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.check.names.duplicates import report_duplicate
-from robocomp_dsl.check.pdsl.values import as_kind, check_range, format_number
+from robocomp_dsl.check.pdsl.values import format_number
 from robocomp_dsl.check.workspace.imports import replace_fix
-from robocomp_dsl.diagnostics import Note, Report, nearest
-from robocomp_dsl.model import types
+from robocomp_dsl.diagnostics import Report, nearest
 from robocomp_dsl.model.component import Component
-from robocomp_dsl.model.parameter import Kind, Parameter
-from robocomp_dsl.syntax.ast.base import Name, Text
+from robocomp_dsl.model.parameter import Default, Kind, Parameter
+from robocomp_dsl.syntax.ast.base import LiteralList, Name
 from robocomp_dsl.syntax.ast.ddsl import Setting
 
 _STEP = re.compile(r"(?P<name>\w+)(?P<index>(?:\[\s*\d+\s*\])*)")
@@ -37,29 +37,44 @@ class _Unknown(Exception):
 
 def settings_of(
     written: Sequence[Setting], component: Component, search: PathSearch, report: Report
-) -> tuple[tuple[tuple[str, types.Literal], ...], tuple[Path, ...]]:
+) -> tuple[tuple[tuple[str, Default], ...], tuple[Path, ...]]:
     """The valid settings in order of writing, and the files and folders that they name.
 
-    `search` finds their paths.
+    Those of elements of lists are last, because a list replaces its elements. `search` finds the
+    paths.
     """
     first: dict[str, Name] = {}
-    settings = []
-    paths = []
+    settings: list[tuple[str, Default]] = []
+    paths: list[Path] = []
     for setting in written:
         earlier = first.setdefault(setting.key.text, setting.key)
         if earlier is not setting.key:
             report_duplicate(setting.key, earlier, "setting", report)
             continue
         parameter = _parameter(setting, component, report)
-        value = _value(setting, parameter, report) if parameter else None
+        value = value_of(setting, parameter, report) if parameter else None
         if value is None or parameter is None:
             continue
-        if parameter.is_path and value:
-            path = search.find(str(value), setting, report)
-            value = str(path or value)
-            paths += [path] if path else []
+        if parameter.is_path:
+            value = _found(setting, value, search, paths, report)
         settings.append((setting.key.text, value))
+    settings.sort(key=lambda item: item[0].endswith("]"))
     return tuple(settings), tuple(dict.fromkeys(paths))
+
+
+def _found(
+    setting: Setting, value: Default, search: PathSearch, paths: list[Path], report: Report
+) -> Default:
+    """The absolute paths of a value; adds to `paths`."""
+    values = value if isinstance(value, tuple) else (value,)
+    written = setting.value
+    nodes = written.items if isinstance(written, LiteralList) else (written,)
+    found = []
+    for text, node in zip(map(str, values), nodes, strict=True):
+        path = search.find(text, setting, node, report) if text else None
+        paths += [path] if path else []
+        found.append(str(path or text))
+    return tuple(found) if isinstance(value, tuple) else found[0]
 
 
 def _parameter(setting: Setting, component: Component, report: Report) -> Parameter | None:
@@ -75,31 +90,6 @@ def _parameter(setting: Setting, component: Component, report: Report) -> Parame
             help=unknown.way_out,
         )
         return None
-
-
-def _value(setting: Setting, parameter: Parameter, report: Report) -> types.Literal | None:
-    try:
-        value = _fit(setting, parameter)
-        check_range(value, parameter)
-    except TypeMismatch as wrong:
-        code = codes.SETTING_RANGE if isinstance(wrong, OutOfRange) else codes.SETTING_TYPE
-        report.add(
-            code,
-            setting.value.span,
-            f"`{setting.key.text}` cannot be set to this: {wrong}",
-            label=wrong.label,
-            notes=[Note(parameter.span, f"`{parameter.name}` is declared here")],
-        )
-        return None
-    return value
-
-
-def _fit(setting: Setting, parameter: Parameter) -> types.Literal:
-    """The value as for a default; a string may be written without quotes."""
-    written = setting.value
-    if parameter.kind is Kind.STRING and isinstance(written, Name):
-        written = Text(written.span, written.text)
-    return as_kind(written, parameter.kind, parameter.choices)
 
 
 def _find(key: str, component: Component) -> Parameter:
@@ -119,7 +109,7 @@ def _find(key: str, component: Component) -> Parameter:
         if found is None:
             raise _unknown_name(key, place, name, component, members)
         place = f"{place}.{name}{index}" if place else f"{name}{index}"
-        _check_index(place, index, found)
+        found = _indexed(place, index, found)
         members = found.members
     if found is None:  # a key has a step at least
         raise _Unknown(f"`{key}` is not the name of a parameter")
@@ -129,17 +119,32 @@ def _find(key: str, component: Component) -> Parameter:
     return found
 
 
-def _check_index(place: str, index: str, found: Parameter) -> None:
+def _indexed(place: str, index: str, found: Parameter) -> Parameter:
+    """The parameter at an index: a group of a list, or one element of a list of values."""
+    if found.is_list:
+        return _element(place, index, found) if index else found
     if found.kind is not Kind.GROUP or found.single:
         if index:
             raise _Unknown(f"`{place}`: `{found.name}` is not a list", place.removesuffix(index))
-        return
+        return found
     numbers = re.findall(r"\d+", index)
     if len(numbers) != 1:
         raise _Unknown(f"`{place}` is a list of groups: add an index, as in `{found.name}[0]`")
     if found.high is not None and int(numbers[0]) >= found.high:
         most = format_number(found.high)
         raise _Unknown(f"`{place}` is beyond the end: `{found.name}` has at most {most}")
+    return found
+
+
+def _element(place: str, index: str, found: Parameter) -> Parameter:
+    numbers = re.findall(r"\d+", index)
+    if len(numbers) != 1:
+        way_out = place.removesuffix(index)
+        raise _Unknown(f"`{place}`: the elements of `{found.name}` are not lists", way_out)
+    if found.longest is not None and int(numbers[0]) >= found.longest:
+        length = found.describe_length()
+        raise _Unknown(f"`{place}` is beyond the end: `{found.name}` has {length}, [0] is first")
+    return found.replace(shortest=None, longest=None, default=None)
 
 
 def _unknown_name(

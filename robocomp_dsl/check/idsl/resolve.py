@@ -43,7 +43,10 @@ def resolve_idsl(
     tree: ast.Module, path: Path, visible: ImportScope, report: Report
 ) -> ResolvedModule:
     """Resolve the module of `tree`."""
-    return _Resolver(tree, visible, report).run(path)
+    resolver = _Resolver(tree, visible, report)
+    resolved = resolver.run(path)
+    resolver.close()
+    return resolved
 
 
 class _Resolver:
@@ -77,6 +80,13 @@ class _Resolver:
             self._tree.origin,
         )
         return ResolvedModule(module, self._pairs)
+
+    def close(self) -> None:
+        """Break the cycle with the names, which would keep the trees until a garbage collection.
+
+        An editor checks so often that the collections would take longer than the checks.
+        """
+        del self._names
 
     def _own(self, name: QualifiedName) -> types.Declaration | None:
         return self._declare(name.name.text, name)
@@ -272,11 +282,13 @@ class _Resolver:
     def _operation(self, tree: ast.Operation) -> model.Operation:
         mark = tree.pattern.text.lower() if tree.pattern else ""
         result = self._names.data(tree.result) if tree.result else None
-        params = unique_by_name(tree.params, "parameter", self._report)
-        known = [(node, self._param(node)) for node in params]
-        inputs = [param for node, param in known if param and not node.out]
-        outputs = [param for node, param in known if param and node.out]
-        throws = [exception for node in tree.throws if (exception := self._names.exception(node))]
+        inputs: list[model.Param] = []
+        outputs: list[model.Param] = []
+        for node in unique_by_name(tree.params, "parameter", self._report):
+            param = self._param(node)
+            if param:
+                (outputs if node.out else inputs).append(param)
+        throws = [found for node in tree.throws if (found := self._names.exception(node))]
         if not outputs and (index := response_index(mark, inputs, result)) is not None:
             outputs = [inputs.pop(index)]
         operation = model.Operation(
@@ -298,8 +310,10 @@ class _Resolver:
         type_ = self._names.data(tree.type)
         if type_ is None:
             return None
-        default = self._literal(tree.default, type_, f"the default of `{tree.name.text}`")
-        unit = self._unit(tree.unit, type_)
+        default = None
+        if tree.default is not None:
+            default = self._literal(tree.default, type_, f"the default of `{tree.name.text}`")
+        unit = self._unit(tree.unit, type_) if tree.unit else ""
         return model.Param(tree.name.text, type_, tree.name.span, unit, default)
 
     def _unit(self, tree: Unit | None, type_: types.Type) -> str:

@@ -77,10 +77,12 @@ def _check_units(
     tree: ast.Operation, operation: Operation, check: UnitCheck, report: Report
 ) -> None:
     for written in tree.params:
+        if not written.unit:
+            continue
         param = next(
             (p for p in operation.inputs + operation.outputs if p.name == written.name.text), None
         )
-        if written.unit and param:
+        if param:
             is_number = holds_number(param.type)
             check(written.unit, f"`{param.name}`", report, is_number=is_number)
 

@@ -6,16 +6,19 @@ In: a name. Out: the declaration, or None and a diagnostic (unless one was repor
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 from typing import TypeVar
 
 from robocomp_dsl.check.codes import types as codes
 from robocomp_dsl.check.literals import join_names
+from robocomp_dsl.check.names.duplicates import Named
 from robocomp_dsl.check.names.import_scope import ImportScope
 from robocomp_dsl.check.workspace.imports import replace_fix
-from robocomp_dsl.diagnostics import Code, Fix, Note, Report, nearest
+from robocomp_dsl.diagnostics import Code, Fix, Note, Report, UnknownName, nearest
 from robocomp_dsl.model import types
 from robocomp_dsl.model.interface import Interface
+from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast.base import QualifiedName
 
 _NEXT_WORD = re.compile(r"([ \t]+)(\w+)", re.ASCII)
@@ -55,7 +58,7 @@ class TypeResolver:
     def __init__(
         self,
         module: str,
-        own_names: Collection[str],
+        own_names: Mapping[str, Named],
         own: Own,
         visible: ImportScope,
         report: Report,
@@ -174,7 +177,13 @@ class TypeResolver:
             label=f"did you mean `{guess}`?" if guess else "",
             help=help_text,
             fix=fix,
+            unknown=UnknownName(name.name.text, self._own_spans if own or not name.module else ()),
         )
+
+    @cached_property
+    def _own_spans(self) -> tuple[Span, ...]:
+        """The names of the declarations of this module."""
+        return tuple(own.name.span for own in self._own_names.values())
 
     def _report_swapped(self, name: QualifiedName) -> bool:
         """Report `count int`, where the name precedes a built-in type; whether it does."""

@@ -10,15 +10,14 @@ from collections.abc import Sequence
 from robocomp_dsl.check.codes import parameters as codes
 from robocomp_dsl.check.doc_comments import documentation_of, plain
 from robocomp_dsl.check.follow_on import discard_follow_on_errors
-from robocomp_dsl.check.literals import OutOfRange, TypeMismatch, as_float, as_int, join_names
+from robocomp_dsl.check.literals import TypeMismatch, as_float, as_int, join_names
 from robocomp_dsl.check.names.duplicates import unique_by_name
-from robocomp_dsl.check.pdsl.rules import check_group, check_parameter
-from robocomp_dsl.check.pdsl.values import as_kind
+from robocomp_dsl.check.pdsl.defaults import resolve_default
+from robocomp_dsl.check.pdsl.rules import check_length, check_parameter
 from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.diagnostics import Report, nearest
 from robocomp_dsl.model.parameter import PATH, Kind, Parameter, ParameterSet
-from robocomp_dsl.model.types import Literal
 from robocomp_dsl.syntax.ast import pdsl as ast
 from robocomp_dsl.syntax.ast.base import Name, Number
 
@@ -66,7 +65,8 @@ def _members(trees: Sequence[ast.Member], report: Report) -> tuple[Parameter, ..
 
 def _group(tree: ast.Group, report: Report) -> Parameter:
     low, high = _bounds(tree.count, Kind.INT, report)
-    group = Parameter(
+    check_length(tree.count, low, high, "groups", report)
+    return Parameter(
         tree.name.text,
         Kind.GROUP,
         tree.name.span,
@@ -76,8 +76,6 @@ def _group(tree: ast.Group, report: Report) -> Parameter:
         single=tree.count is None,
         doc=documentation_of(tree),
     )
-    check_group(tree, group, report)
-    return group
 
 
 def _parameter(tree: ast.Parameter, report: Report) -> Parameter | None:
@@ -89,11 +87,12 @@ def _parameter(tree: ast.Parameter, report: Report) -> Parameter | None:
         named = [_Choice(choice) for choice in tree.type.choices]
         choices = tuple(choice.name.text for choice in unique_by_name(named, "choice", report))
     low, high = _bounds(tree.range, kind, report)
+    shortest, longest = _length(tree.count, report)
     parameter = Parameter(
         tree.name.text,
         kind,
         tree.name.span,
-        default=_default(tree, kind, choices, report),
+        default=resolve_default(tree, kind, choices, shortest, report),
         low=low,
         high=high,
         unit=tree.unit.text if tree.unit else "",
@@ -101,6 +100,8 @@ def _parameter(tree: ast.Parameter, report: Report) -> Parameter | None:
         choices=choices,
         doc=documentation_of(tree),
         is_path=isinstance(tree.type, Name) and tree.type.text.lower() == PATH,
+        shortest=shortest,
+        longest=longest,
     )
     check_parameter(tree, parameter, report)
     return parameter
@@ -130,23 +131,14 @@ def _kind(written: Name | ast.Enumeration, report: Report) -> Kind | None:
     return KINDS.get(word)
 
 
-def _default(
-    tree: ast.Parameter, kind: Kind, choices: Sequence[str], report: Report
-) -> Literal | None:
-    if tree.default is None:
-        return None
-    try:
-        return as_kind(tree.default, kind, choices)
-    except TypeMismatch as wrong:
-        code = (
-            codes.PARAMETER_DEFAULT_VALUE
-            if isinstance(wrong, OutOfRange)
-            else codes.PARAMETER_DEFAULT_TYPE
-        )
-        fix = replace_fix(tree.default.span, wrong.replacement) if wrong.replacement else None
-        message = f"the default of `{tree.name.text}` is invalid: {wrong}"
-        report.add(code, tree.default.span, message, label=wrong.label, fix=fix)
-        return None
+def _length(written: ast.Range | None, report: Report) -> tuple[int | None, int | None]:
+    """The smallest and the largest number of elements of a list; of a single value None."""
+    if written is None:
+        return None, None
+    low, high = _bounds(written, Kind.INT, report)
+    if not check_length(written, low, high, "values", report):
+        return 1, None
+    return int(low or 0), None if high is None else int(high)
 
 
 def _bounds(

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from robocomp_dsl.check.codes import parameters as codes
 from robocomp_dsl.check.idsl.units import check_unit
-from robocomp_dsl.check.literals import OutOfRange
-from robocomp_dsl.check.pdsl.values import check_range, format_number
+from robocomp_dsl.check.pdsl.defaults import check_default
+from robocomp_dsl.check.pdsl.values import format_number
 from robocomp_dsl.diagnostics import Edit, Fix, Report
 from robocomp_dsl.model.parameter import Kind, Parameter
 from robocomp_dsl.syntax.ast import pdsl as ast
 
 _NUMBERS = (Kind.INT, Kind.FLOAT)
-MAX_GROUPS = 100_000
+MAX_ELEMENTS = 100_000
 
 
 def check_parameter(tree: ast.Parameter, parameter: Parameter, report: Report) -> None:
@@ -29,36 +29,35 @@ def check_parameter(tree: ast.Parameter, parameter: Parameter, report: Report) -
             f"`{parameter.name}` is not a number and cannot have a range",
             fix=Fix("remove the range", (Edit(tree.range.span, ""),)),
         )
-    if tree.range and _is_empty_range(tree.range, parameter, report):
-        return
-    if tree.default and parameter.default is not None:
-        try:
-            check_range(parameter.default, parameter)
-        except OutOfRange as wrong:
-            message = f"the default of `{parameter.name}` is out of range: {wrong}"
-            report.add(codes.DEFAULT_OUT_OF_RANGE, tree.default.span, message)
+    if not (tree.range and is_empty_range(tree.range, parameter.low, parameter.high, report)):
+        check_default(tree, parameter, report)
 
 
-def check_group(tree: ast.Group, parameter: Parameter, report: Report) -> None:
-    """Check the length of a group list."""
-    if tree.count is None or _is_empty_range(tree.count, parameter, report):
-        return
-    for bound in (parameter.low, parameter.high):
-        if bound is not None and not 0 <= bound <= MAX_GROUPS:
+def check_length(
+    tree: ast.Range | None, low: float | None, high: float | None, noun: str, report: Report
+) -> bool:
+    """Whether a list of `noun` may have `low` to `high` elements; reports it otherwise."""
+    if tree is None or is_empty_range(tree, low, high, report):
+        return tree is None
+    for bound in (low, high):
+        if bound is not None and not 0 <= bound <= MAX_ELEMENTS:
             report.add(
-                codes.GROUP_LENGTH,
-                tree.count.span,
-                f"a list of groups has 0 to {MAX_GROUPS} elements, not {format_number(bound)}",
+                codes.LIST_LENGTH,
+                tree.span,
+                f"a list of {noun} has 0 to {MAX_ELEMENTS} elements, not {format_number(bound)}",
             )
+            return False
+    return True
 
 
-def _is_empty_range(tree: ast.Range, parameter: Parameter, report: Report) -> bool:
-    if parameter.low is None or parameter.high is None or parameter.low <= parameter.high:
+def is_empty_range(tree: ast.Range, low: float | None, high: float | None, report: Report) -> bool:
+    """Whether no number is between the bounds, which is reported."""
+    if low is None or high is None or low <= high:
         return False
     report.add(
         codes.EMPTY_RANGE,
         tree.span,
-        f"the range {format_number(parameter.low)} to {format_number(parameter.high)} is empty",
+        f"the range {format_number(low)} to {format_number(high)} is empty",
         help="write the smaller bound first",
         fix=_swap(tree),
     )

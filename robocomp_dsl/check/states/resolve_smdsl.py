@@ -5,12 +5,12 @@ In: the tree. Out: a `StateMachine` of nested states, and diagnostics.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from robocomp_dsl.check.codes import states as codes
 from robocomp_dsl.check.names.duplicates import report_duplicate
-from robocomp_dsl.check.workspace.imports import replace_fix
+from robocomp_dsl.check.names.unknown_names import report_unknown_name
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.diagnostics import Edit, Fix, Note, Report, nearest
 from robocomp_dsl.model.statemachine import State, StateMachine, Transition
@@ -25,13 +25,15 @@ MAX_DEPTH = 200
 class Blocks:
     """The blocks of a file by their parent state ("" for the machine).
 
-    `block_of` maps every state to its block; the first one if a name is repeated. `guessed` are
+    `block_of` maps every state to its block, `names` to its declaration; the first one if a name is
+    repeated. `guessed` are
     corrected transitions with a misspelled name: they are not part of the machine, but their
     targets count as reachable.
     """
 
     by_parent: dict[str, ast.Block] = field(default_factory=dict)
     block_of: dict[str, str] = field(default_factory=dict)
+    names: dict[str, Name] = field(default_factory=dict)
     guessed: list[Transition] = field(default_factory=list)
 
     def ancestors(self, block: str) -> Iterator[str]:
@@ -67,7 +69,7 @@ def resolve_smdsl(file: Parsed[ast.File], report: Report) -> tuple[StateMachine,
 
 def _blocks(machine: ast.Machine, substates: tuple[ast.Substates, ...], report: Report) -> Blocks:
     blocks = Blocks({"": machine})
-    names: dict[str, Name] = {}
+    names = blocks.names
     for block in (machine, *substates):
         home = "" if block is machine else block.name.text
         for state in block.all_states:
@@ -80,7 +82,7 @@ def _blocks(machine: ast.Machine, substates: tuple[ast.Substates, ...], report: 
         earlier = blocks.by_parent.setdefault(block.name.text, block)
         if block.name.text not in names:
             del blocks.by_parent[block.name.text]
-            _report_unknown(block.name, names, report)
+            _report_unknown(block.name, blocks, report)
         elif earlier is not block:
             report_duplicate(block.name, earlier.name, "block", report)
     _cut_cycles(blocks, report)
@@ -164,7 +166,7 @@ def _resolve_state(
     if home in allowed:
         return name.text
     if home is None:
-        _report_unknown(name, blocks.block_of, report, tree)
+        _report_unknown(name, blocks, report, tree)
         return nearest(name.text, [state for state, at in blocks.block_of.items() if at in allowed])
     block = blocks.by_parent.get(home)  # None for a block without a parent state
     where = f"inside `{home}`" if home else "outside of this block"
@@ -179,19 +181,18 @@ def _resolve_state(
 
 
 def _report_unknown(
-    name: Name, known: Mapping[str, object], report: Report, tree: ast.Block | None = None
+    name: Name, blocks: Blocks, report: Report, tree: ast.Block | None = None
 ) -> None:
     """Report an unknown state; the fix is a similar name, or adds it to the states of `tree`."""
-    guess = nearest(name.text, known)
-    missing = tree is not None and not guess
-    fix = _list_state_fix(name, tree.states) if tree is not None and missing else None
-    report.add(
+    report_unknown_name(
+        report,
         codes.UNKNOWN_STATE,
-        name.span,
+        name,
         f"unknown state `{name.text}`",
-        label=f"did you mean `{guess}`?" if guess else "",
-        help="list it under `states`" if missing else "",
-        fix=replace_fix(name.span, guess) if guess else fix,
+        blocks.names,
+        "list it under `states`" if tree else "",
+        declared=[state.span for state in blocks.names.values()],
+        fix=_list_state_fix(name, tree.states) if tree else None,
     )
 
 

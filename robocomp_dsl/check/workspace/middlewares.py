@@ -19,13 +19,16 @@ class KnownMiddlewares:
 
     def __init__(self, further: Sequence[MiddlewareDescription] = ()) -> None:
         self._further = {description.name: description for description in further}
+        self._found: dict[str, str | None] = {}
 
     def find(self, written: str) -> str | None:
         """The name of a middleware, which may be written in any case; None if it is unknown."""
-        from robocomp_dsl.runtime.middleware.registry import BUILT_IN  # noqa: PLC0415 - on first use
+        if written not in self._found:
+            from robocomp_dsl.runtime.middleware.registry import BUILT_IN  # noqa: PLC0415 - on first use
 
-        built_in = _match(written, (*self._further, *BUILT_IN))
-        return built_in or _match(written, self.names())
+            built_in = _match(written, (*self._further, *BUILT_IN))
+            self._found[written] = built_in or _match(written, self.names())
+        return self._found[written]
 
     def names(self) -> list[str]:
         """The names of all middlewares, sorted."""

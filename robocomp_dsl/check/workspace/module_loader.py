@@ -14,6 +14,7 @@ from robocomp_dsl.check.follow_on import discard_follow_on_errors
 from robocomp_dsl.check.idsl.resolve import resolve_idsl
 from robocomp_dsl.check.idsl.rules import check_idsl_rules
 from robocomp_dsl.check.names.import_scope import ImportScope, Tree
+from robocomp_dsl.check.names.misspelled_declarations import report_misspelled_declarations
 from robocomp_dsl.check.names.suggest import ImportSuggestion, suggest_import
 from robocomp_dsl.check.workspace.import_resolver import ImportResolver
 from robocomp_dsl.check.workspace.imports import (
@@ -122,6 +123,7 @@ class ModuleLoader:
             check_idsl_rules(resolved, report)
             modules.append(resolved.module)
         discard_follow_on_errors(report, parsed)
+        report_misspelled_declarations(report)
         return LoadedModule(parsed, links, tuple(modules), tuple(report))
 
     def import_scope(
@@ -130,8 +132,14 @@ class ModuleLoader:
         """The scope of the names in `file`."""
         statements = [link.statement for link in links]
 
+        offers: dict[str, ImportSuggestion | None] = {}
+
         def offer(name: QualifiedName) -> ImportSuggestion | None:
-            return suggest_import(name, file.source, statements, self._files, self._search)
+            if name.text not in offers:
+                offers[name.text] = suggest_import(
+                    name, file.source, statements, self._files, self._search
+                )
+            return offers[name.text]
 
         return ImportScope(file, links, offer, earlier)
 

@@ -92,7 +92,8 @@ def state_machine_of(
             codes.NO_STATE_MACHINE,
             written.path.span,
             f"cannot find the state machine `{beside.parent / path}`",
-            help=f"a path is relative to the folder of `{beside.name}`",
+            help=f"the component is generated without it; a path is relative to the folder of"
+            f" `{beside.name}`",
         )
     else:
         machine = _machine(written.path, beside, workspace, report)

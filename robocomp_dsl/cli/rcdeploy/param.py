@@ -127,9 +127,7 @@ def _write_to_ddsl(
     from robocomp_dsl.deploy import ddsl_settings  # noqa: PLC0415 - loads the parser
 
     literals = {
-        parameter: ddsl_settings.format_ddsl_literal(
-            value.strip(), is_text=types.get(parameter) == "string"
-        )
+        parameter: ddsl_settings.format_ddsl_value(parameter, value, types)
         for parameter, value in values.items()
     }
     try:
@@ -229,7 +227,8 @@ def _table(found: dict[str, list[ParameterInfo]]) -> Iterator[str]:
 def _accepted_values(deployment: ParameterInfo) -> str:
     unit = f" [{deployment.unit}]" if deployment.unit else ""
     if deployment.choices:
-        return " | ".join(deployment.choices)
+        length = deployment.type.removeprefix("choice")
+        return f"{' | '.join(deployment.choices)}{f' {length}' if length else ''}"
     bounds = f" {deployment.low}:{deployment.high}" if deployment.low or deployment.high else ""
     return f"{deployment.type}{bounds}{unit}"
 

@@ -117,7 +117,8 @@ def _referenced_files(path: Path) -> Iterator[NamedFile]:
 
 def _texts(instance: Instance) -> Iterator[str]:
     """The texts among the values of `set` and of devices."""
-    values = [value for _, value in instance.settings]
+    settings = [value for _, value in instance.settings]
+    values = [v for value in settings for v in (value if isinstance(value, tuple) else (value,))]
     values += [v for device in instance.devices.devices for _, v in device.parameters]
     for value in values:
         text = value if isinstance(value, str) else ""

@@ -177,6 +177,9 @@ def _parameter(path: str, parameter: Parameter) -> tuple[Inlines, ...]:
 
 
 def _type(parameter: Parameter) -> Inlines:
+    if parameter.is_list:
+        length = parameter.describe_length()
+        return (PlainText(f"list of {length}: "), *_type(parameter.replace(shortest=None)))
     if parameter.kind is Kind.CHOICE:
         return (PlainText("one of "), *join_inlines(map(inline_code, parameter.choices)))
     if parameter.kind is Kind.GROUP:
@@ -187,6 +190,8 @@ def _type(parameter: Parameter) -> Inlines:
 def _default(parameter: Parameter) -> Inlines:
     if parameter.default is None:
         return ()
+    if isinstance(parameter.default, tuple):
+        return inline_code(literals.yaml_value(parameter.default))
     if parameter.kind is Kind.FLOAT and not isinstance(parameter.default, str):
         return inline_code(f"{float(parameter.default):g}")
     return inline_code(

@@ -56,14 +56,29 @@ def _property(parameter: Parameter) -> dict[str, Any]:
         schema["description"] = description
     if parameter.kind is Kind.GROUP:
         return {**schema, **(_object(parameter.members) if parameter.single else _array(parameter))}
-    schema["type"] = _TYPES[parameter.kind]
+    if parameter.is_list:
+        schema |= _list(parameter)
+    else:
+        schema |= _value(parameter)
+    if parameter.default is not None:
+        schema["default"] = parameter.default
+    return schema
+
+
+def _list(parameter: Parameter) -> dict[str, Any]:
+    bounds = {"minItems": parameter.shortest or None, "maxItems": parameter.longest}
+    limits = {key: bound for key, bound in bounds.items() if bound is not None}
+    return {"type": "array", "items": _value(parameter), **limits}
+
+
+def _value(parameter: Parameter) -> dict[str, Any]:
+    """One value: of a parameter, or of a list."""
+    schema: dict[str, Any] = {"type": _TYPES[parameter.kind]}
     if parameter.choices:
         schema["enum"] = list(parameter.choices)
     if parameter.kind in (Kind.INT, Kind.FLOAT):
         bounds = {"minimum": parameter.low, "maximum": parameter.high}
         schema |= {key: _bound(parameter, b) for key, b in bounds.items() if b is not None}
-    if parameter.default is not None:
-        schema["default"] = parameter.default
     return schema
 
 

@@ -12,8 +12,7 @@ from robocomp_dsl.generate import literals, names
 from robocomp_dsl.generate.python import layout
 from robocomp_dsl.generate.python.layout import INNER, Item
 from robocomp_dsl.model.component import Component
-from robocomp_dsl.model.parameter import Kind, Parameter
-from robocomp_dsl.model.types import Literal
+from robocomp_dsl.model.parameter import Default, Kind, Parameter
 from robocomp_dsl.record import ValueRecord
 
 _TYPES = {Kind.STRING: "str", Kind.INT: "int", Kind.FLOAT: "float", Kind.BOOL: "bool"}
@@ -23,6 +22,10 @@ _WORDS = {
     Kind.FLOAT: "a number",
     Kind.BOOL: "true or false",
 }
+
+
+_MOST_EQUAL = 8
+"""Elements of a default that are written out although they are equal."""
 
 
 class AttributeCode(ValueRecord):
@@ -110,6 +113,8 @@ def _declared(attribute: str, parameter: Parameter, group: str) -> str:
         hint = layout.subscript("Literal", *map(literals.python_string, parameter.choices))
     elif parameter.kind is Kind.GROUP:
         hint = group if parameter.single else f"list[{group}]"
+    if parameter.is_list:
+        hint = layout.subscript("list", hint)
     return layout.statement(f"{attribute}: ", hint, INNER)
 
 
@@ -119,7 +124,7 @@ def _entry(parameter: Parameter, attribute: str, group: str) -> Item:
     arguments: list[Item] = [quoted(parameter.name)]
     arguments.append(group or quoted(parameter.kind.value))
     if parameter.default is not None:
-        arguments.append(f"default={literals.python_value(_of_kind(parameter, parameter.default))}")
+        arguments.append(_default(_of_kind(parameter, parameter.default)))
     bounds = {"low": parameter.low, "high": parameter.high}
     for key, bound in bounds.items():
         if bound is not None:
@@ -127,6 +132,8 @@ def _entry(parameter: Parameter, attribute: str, group: str) -> Item:
             arguments.append(
                 f"{key}={literals.python_value(int(bound) if whole else float(bound))}"
             )
+    lengths = {"shortest": parameter.shortest, "longest": parameter.longest}
+    arguments += [f"{key}={length}" for key, length in lengths.items() if length is not None]
     if parameter.unit:
         arguments.append(f"unit={quoted(parameter.unit)}")
     if parameter.choices:
@@ -139,9 +146,21 @@ def _entry(parameter: Parameter, attribute: str, group: str) -> Item:
     return layout.call("Group" if group else "Parameter", *arguments)
 
 
-def _of_kind(parameter: Parameter, default: Literal) -> Literal:
-    """The default; an integer default of a float is converted."""
-    return float(default) if parameter.kind is Kind.FLOAT else default
+def _default(default: Default) -> Item:
+    """The argument `default=…`; many equal elements of a list are a product."""
+    if not isinstance(default, tuple):
+        return f"default={literals.python_value(default)}"
+    elements = [literals.python_value(element) for element in default]
+    if len(elements) > _MOST_EQUAL and len(set(elements)) == 1:
+        return f"default=({elements[0]},) * {len(elements)}"
+    return layout.tuple_of(*elements, head="default=")
+
+
+def _of_kind(parameter: Parameter, default: Default) -> Default:
+    """The default; integer defaults of a float are converted."""
+    if parameter.kind is not Kind.FLOAT:
+        return default
+    return tuple(map(float, default)) if isinstance(default, tuple) else float(default)
 
 
 def config_lines(parameters: Iterable[Parameter], indent: str = "") -> Iterator[str]:
@@ -186,9 +205,10 @@ def takes(parameter: Parameter) -> str:
     must = (
         ", must be given" if parameter.default is None and parameter.kind is not Kind.GROUP else ""
     )
-    return (
-        f"{_WORDS.get(parameter.kind) or _listed(parameter)}{_range(parameter)}{unit}{live}{must}"
-    )
+    each = f"{_WORDS.get(parameter.kind) or _listed(parameter)}{_range(parameter)}{unit}"
+    if parameter.is_list:
+        each = f"a list of {parameter.describe_length()}, each {each}"
+    return f"{each}{live}{must}"
 
 
 def _listed(parameter: Parameter) -> str:

@@ -43,7 +43,7 @@ def generic_imports(component: Component, py_names: PythonNames) -> Iterator[str
     yield ""
     if used:
         yield _import(".interfaces", used)
-    if component.statemachine:
+    if component.statemachine and component.statemachine.machine:
         yield "from .machine import MACHINE"
     yield _import(".params", {py_names.params})
 

@@ -59,4 +59,5 @@ def parameter_candidates(
     kind = lsp.CompletionItemKind.Property
     for parameter in parameters:
         symbol = parameter_symbol(parameter, container)
-        yield CompletionCandidate(parameter.name, kind, parameter.type_name, symbol)
+        length = f", {parameter.describe_length()}" if parameter.is_list else ""
+        yield CompletionCandidate(parameter.name, kind, f"{parameter.type_name}{length}", symbol)

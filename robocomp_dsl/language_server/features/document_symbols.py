@@ -136,17 +136,27 @@ def _detail(node: Node) -> str:
             return node.type.text
         case idsl.Operation():
             return node.result.text if node.result else "void"
-        case pdsl.Parameter(type=Name() as name) | ddsl.Instance(component=Name() as name):
+        case ddsl.Instance(component=Name() as name):
             pass
         case innermodel.Element():
             name = node.tag
         case smdsl.Substates(parallel=True):
             return "parallel"
-        case _ if isinstance(node, _BridgePortNode):
-            return _port_detail(node)
+        case _ if isinstance(node, _BridgePortNode | pdsl.Parameter):
+            return _type_detail(node)
         case bdsl.Hub(policy=name):
             pass
     return name.text if name else ""
+
+
+def _type_detail(node: _BridgePortNode | pdsl.Parameter) -> str:
+    """The type of a parameter, of a list with its length: `float[1:8]`; that of a port."""
+    if not isinstance(node, pdsl.Parameter):
+        return _port_detail(node)
+    length = node.count.span.text if node.count else ""
+    if isinstance(node.type, Name):
+        return f"{node.type.text}{length}"
+    return f"{node.type.span.text}{length}" if length else ""
 
 
 def _port_detail(node: _BridgePortNode) -> str:

@@ -11,6 +11,7 @@ from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.deployment import Connection, Deployment, External, Host, Instance
 from robocomp_dsl.model.parameter import Kind, Parameter, ParameterSet
 from robocomp_dsl.model.placement import LabelledHosts
+from robocomp_dsl.model.types import Literal
 from robocomp_dsl.syntax.ast import ddsl as ast
 
 
@@ -22,9 +23,9 @@ def format_parameter(parameter: Parameter) -> str:
         return format_block(f"{parameter.name}{count}", members)
     choices = f"{{{', '.join(parameter.choices)}}}"
     parts = [
-        parameter.name,
+        f"{parameter.name}{_length(parameter)}",
         choices if parameter.kind is Kind.CHOICE else parameter.type_name,
-        "" if parameter.default is None else _literal(parameter),
+        _default(parameter),
         f"[{parameter.unit}]" if parameter.unit else "",
         _range(parameter),
         "live" if parameter.live else "",
@@ -37,11 +38,29 @@ def _parameter_set(parameters: ParameterSet) -> str:
     return format_block(f"ComponentParams {parameters.name}", lines)
 
 
-def _literal(parameter: Parameter) -> str:
-    if isinstance(parameter.default, bool):
-        return str(parameter.default).lower()
-    is_string = parameter.kind is Kind.STRING
-    return f'"{parameter.default}"' if is_string else str(parameter.default)
+def _length(parameter: Parameter) -> str:
+    """`[1:8]` behind the name of a list of values."""
+    if not parameter.is_list:
+        return ""
+    low, high = parameter.shortest or 0, parameter.longest
+    if low == high:
+        return f"[{low}]"
+    return f"[{low or ''}:{high or ''}]" if low or high else "[]"
+
+
+def _default(parameter: Parameter) -> str:
+    default = parameter.default
+    if not isinstance(default, tuple):
+        return "" if default is None else _literal(parameter, default)
+    if default and len(default) == parameter.shortest and len(set(default)) == 1:
+        return _literal(parameter, default[0])
+    return f"{{{', '.join(_literal(parameter, each) for each in default)}}}" if default else ""
+
+
+def _literal(parameter: Parameter, value: Literal) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f'"{value}"' if parameter.kind is Kind.STRING else str(value)
 
 
 def _range(parameter: Parameter) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from robocomp_dsl.check.cdsl.options import expand_options
+from robocomp_dsl.check.cdsl.options import expand_options, resolve_imports
 from robocomp_dsl.check.names.import_scope import ImportScope
 from robocomp_dsl.check.passes import check_cdsl
 from robocomp_dsl.check.workspace.source_cache import Parsed
@@ -55,12 +55,12 @@ def has_alias(port: Port, component: Component, workspace: Workspace) -> bool:
 def import_scope_of(file: Parsed[ast.File], workspace: Workspace) -> ImportScope:
     """The declarations that are visible in a component."""
     workspace.modules.start_run(file.source.path)
-    imports = file.tree.imports
     if file.tree.component:
-        imports = expand_options(file.tree, file.tree.component, Report()).imports
-    return workspace.modules.import_scope(
-        file, workspace.modules.resolve_imports(imports, Report())
-    )
+        expanded = expand_options(file.tree, file.tree.component, Report())
+        links = resolve_imports(expanded, workspace.modules, Report())
+    else:
+        links = workspace.modules.resolve_imports(file.tree.imports, Report())
+    return workspace.modules.import_scope(file, links)
 
 
 def _aliases(tree: ast.Component, component: Component) -> Iterator[Occurrence]:

@@ -35,6 +35,7 @@ from robocomp_dsl.runtime.component.statistics import Statistics as RunStatistic
 from robocomp_dsl.runtime.connection.connections_interface import COMPONENTCONNECTIONS
 from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA, Schema
 from robocomp_dsl.runtime.parameters import ParameterRejected, Parameters
+from robocomp_dsl.runtime.parameters.value_list import format_list
 
 MAX_PERIOD_MS = 3_600_000
 _PORT_ROLES = {
@@ -161,7 +162,7 @@ class Introspection:
         return [
             ParameterInfo(
                 name=counts.name,
-                type=counts.kind,
+                type=counts.type,
                 unit=counts.unit,
                 live=counts.live,
                 low=_format_value(counts.low),
@@ -244,4 +245,6 @@ def _operation(counts: OperationCounts) -> OperationStatistics:
 def _format_value(value: object) -> str:
     if value is None:
         return ""
+    if isinstance(value, list | tuple):
+        return format_list(value)
     return str(value).lower() if isinstance(value, bool) else str(value)

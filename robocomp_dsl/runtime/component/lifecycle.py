@@ -68,7 +68,8 @@ class Lifecycle:
     """Runs one component; `publish_state` receives every state.
 
     `on_stop` are called at the request to stop, while a hook may still run; `stops_with_machine`
-    says whether the component ends when its state machine has.
+    says whether the component ends when its state machine has; `exit_code` is that of the process
+    if user code chose it (`exit`). `may_block`: a hook that does not return at a stop is no failure.
     """
 
     def __init__(
@@ -97,6 +98,8 @@ class Lifecycle:
         self.finalized = threading.Event()
         self.on_stop: list[Callable[[], None]] = []
         self.stops_with_machine = True
+        self.exit_code: int | None = None
+        self.may_block = False
         self._throttle = Throttle()
         self._overrun_throttle = Throttle()
 
@@ -141,6 +144,12 @@ class Lifecycle:
         self._wake.stop()
         for notify in self.on_stop:
             notify()
+
+    def exit(self, code: int) -> None:
+        """Stop as `stop` does; the process ends with `code`. The first call has an effect."""
+        if self.exit_code is None:
+            self.exit_code = code
+        self.stop()
 
     def set_period(self, period_ms: float) -> None:
         """Change the period; 0: event-driven."""
@@ -317,7 +326,8 @@ class Lifecycle:
             log.error("%s", str(error).removeprefix("error: "))  # noqa: TRY400
             return False
         except BaseException as error:
-            log_failure(name, error)
+            if self.exit_code is None or not isinstance(error, SystemExit):
+                log_failure(name, error)
             return False
         finally:
             if entered:

@@ -293,14 +293,18 @@ class Runner:
         self.ports.close()
         if self.monitors:
             self.monitors.destroy()
-        return not self.abandoned and self._succeeded and not self._failed
+        if self.lifecycle.exit_code is not None:
+            return self.lifecycle.exit_code == 0 and not self._failed
+        ended = not self.abandoned or (self.lifecycle.may_block and not self.hang)
+        return ended and self._succeeded and not self._failed
 
     def _abandon_hook(self, timeout: float) -> None:
         """Call `finalize` beside the hook that did not return within `timeout` s."""
         self.abandoned = True
         self._hook_thread.abandon()
         life = self.lifecycle
-        log.error("%s did not return within %g s; exiting anyway", life.state.value, timeout)
+        level = logging.INFO if life.may_block and not self.hang else logging.ERROR
+        log.log(level, "%s did not return within %g s; exiting anyway", life.state.value, timeout)
         threading.Thread(
             target=life.finalize, args=(0.0,), name=f"{self.name}.finalize", daemon=True
         ).start()

@@ -13,11 +13,10 @@ from typing import Any
 from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.connection.interface_version import is_other_version
 from robocomp_dsl.runtime.connection.latched_messages import LatchedMessages
-from robocomp_dsl.runtime.connection.peer_selection import matches
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.connection.published_port import PublishedPort
+from robocomp_dsl.runtime.connection.subscriber_selection import SubscriberSelection
 from robocomp_dsl.runtime.connection.topic_versions import TopicVersions
 from robocomp_dsl.runtime.errors import NotPublishable
 from robocomp_dsl.runtime.middleware.transport import Publisher
@@ -50,9 +49,10 @@ class TopicChannel:
         self._rebind: list[Callable[[], None]] = []
         self._change_latched: list[Callable[[], None]] = []
         self._retired: list[Publisher] = []
-        self._attaching = [p for p in ports if p.capabilities.attaches_subscribers]
+        self._selection = SubscriberSelection(registry, at, ports)
         self._attached: dict[tuple[str, PortRecord], PublishedPort] = {}
-        self._counting = ports.index(self._attaching[0]) if self._attaching else 0
+        attaching = self._selection.attaching
+        self._counting = ports.index(attaching[0]) if attaching else 0
         self._version = -1
         self._lock = threading.Lock()
 
@@ -186,7 +186,7 @@ class TopicChannel:
             former = [port.publisher for port in self._ports]
             if self._latched and at.name != self._at.name:
                 self._latched.rename(at)
-            self._at = at
+            self._at = self._selection.at = at
             for port, publisher in zip(self._ports, publishers, strict=True):
                 port.publisher = publisher
             for (_, record), port in self._attached.items():
@@ -203,7 +203,7 @@ class TopicChannel:
         """Attach the subscribers that have appeared, and detach those that are gone."""
         with self._lock:
             version = self._registry.version
-            current = self._subscribers_to_attach()
+            current = self._selection.to_attach()
             for key, port in list(self._attached.items()):
                 if key not in current:
                     del self._attached[key]
@@ -212,50 +212,8 @@ class TopicChannel:
                 if key not in self._attached:
                     self._attached[key] = port
                     port.publisher.attach(key[1])
-            self._versions.update(self._at, self._versioned_subscribers())
+            self._versions.update(self._at, self._selection.of_all_versions())
             self._version = version
-
-    def _subscribers_to_attach(self) -> dict[tuple[str, PortRecord], PublishedPort]:
-        """Each subscriber once: on the first middleware of this port that it has."""
-        found = self._registry.find("subscriber", self._at.interface.name)
-        current: dict[tuple[str, PortRecord], PublishedPort] = {}
-        reached = {
-            record.name
-            for record in found
-            for port in self._ports
-            if record.middleware == port.middleware and port not in self._attaching
-        }
-        for port in self._attaching:
-            for record in found:
-                if (
-                    record.middleware == port.middleware
-                    and record.name not in reached
-                    and self._is_subscriber(record)
-                ):
-                    current[port.middleware, record] = port
-            reached |= {record.name for _, record in current}
-        return current
-
-    def _versioned_subscribers(self) -> list[PortRecord]:
-        """The subscribers with any version of the interface, where the middleware carries it."""
-        found = self._registry.find("subscriber", self._at.interface.name)
-        capable = {p.middleware for p in self._ports if p.capabilities.topic_versions}
-        return [r for r in found if r.middleware in capable and self._subscribes(r)]
-
-    def _is_subscriber(self, record: PortRecord) -> bool:
-        """Whether a port on the same middleware subscribes to this version of this port."""
-        return not is_other_version(self._at, record) and self._subscribes(record)
-
-    def _subscribes(self, record: PortRecord) -> bool:
-        at = Endpoint(self._at.interface, record.component, record.port, record.peers)
-        return any(port.middleware == record.middleware for port in self._ports) and matches(
-            at, self._at.component, self._at.port
-        )
-
-    def _is_other_subscriber(self, record: PortRecord) -> bool:
-        if record.component == self._at.component:
-            return False
-        return self._is_subscriber(record) or record in self._versioned_subscribers()
 
     def wait(self, timeout: float) -> bool:
         """See `ports.Channel`."""
@@ -264,7 +222,7 @@ class TopicChannel:
         paused = self._context.callback_group.pause()
         try:
             name = self._at.interface.name
-            return bool(self._registry.wait("subscriber", name, self._is_other_subscriber, timeout))
+            return bool(self._registry.wait("subscriber", name, self._selection.is_other, timeout))
         finally:
             if paused:
                 self._context.callback_group.resume(paused)
@@ -277,13 +235,9 @@ class TopicChannel:
             return True
         for port in self._ports:
             known = port.publisher.has_subscribers()
-            if known or (known is None and self._knows_subscriber()):
+            if known or (known is None and self._selection.is_any_known()):
                 return True
         return False
-
-    def _knows_subscriber(self) -> bool:
-        found = self._registry.find("subscriber", self._at.interface.name)
-        return any(self._is_subscriber(record) for record in found)
 
     def withdraw(self, presence: Presence) -> None:
         """Make the port unknown, before it is closed."""
@@ -292,7 +246,8 @@ class TopicChannel:
 
     def close(self) -> None:
         """End the port on all middlewares."""
-        ports, self._ports, self._attaching = self._ports, [], []
+        ports, self._ports = self._ports, []
+        self._selection.clear()
         self._attached.clear()
         self._versions.close()
         for port in ports:

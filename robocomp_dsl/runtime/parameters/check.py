@@ -9,11 +9,18 @@ from __future__ import annotations
 from typing import Any
 
 from robocomp_dsl.finding import Finding, Location
-from robocomp_dsl.runtime.parameters import overrides
+from robocomp_dsl.runtime.parameters import overrides, value_list
 from robocomp_dsl.runtime.parameters import scalar as scalars
 from robocomp_dsl.runtime.parameters.errors import did_you_mean
 from robocomp_dsl.runtime.parameters.scalar import InvalidValue
-from robocomp_dsl.runtime.parameters.schema import KIND_NAMES, Entry, Group, Parameter, Schema
+from robocomp_dsl.runtime.parameters.schema import (
+    KIND_NAMES,
+    Element,
+    Entry,
+    Group,
+    Parameter,
+    Schema,
+)
 from robocomp_dsl.runtime.parameters.tree import NODE_NAMES, Items, Mapping, Member, Node, Scalar
 
 _MOST_NODES = 100_000
@@ -82,7 +89,7 @@ class _Checker:
             if entry.default is None:
                 message = f"`{path}` is not given and has no default"
                 self.add(owner.place, message, help=f"add `{_sample(entry)}`")
-            return entry.default
+            return list(entry.default) if isinstance(entry.default, tuple) else entry.default
         if entry.single:
             return self.group(Mapping(owner.place), entry.type.SCHEMA, path)
         if entry.low:
@@ -91,6 +98,8 @@ class _Checker:
         return []
 
     def parameter(self, node: Node, entry: Parameter, path: str) -> Any:
+        if entry.is_list:
+            return self.values(node, entry, path)
         if not isinstance(node, Scalar):
             message = f"`{path}` must be {KIND_NAMES[entry.kind]}, not {NODE_NAMES[type(node)]}"
             self.add(node.place, message, f"expected {entry.kind}")
@@ -100,6 +109,13 @@ class _Checker:
         except InvalidValue as unfit:
             self.add(node.place, str(unfit), unfit.label, unfit.help)
             return None
+
+    def values(self, node: Node, entry: Parameter, path: str) -> list[Element]:
+        self.visited += len(node.items) if isinstance(node, Items) else 0
+        values, problems = value_list.from_node(entry, path, node)
+        for place, unfit in problems:
+            self.add(place, str(unfit), unfit.label, unfit.help)
+        return values
 
     def single(self, node: Node, entry: Group, path: str) -> Any:
         if isinstance(node, Mapping):
@@ -132,4 +148,4 @@ def _entries(entry: Group) -> str:
 def _sample(entry: Parameter) -> str:
     unit = f" [{entry.unit}]" if entry.unit else ""
     value = "|".join(entry.choices) if entry.choices else f"<{entry.kind}{unit}>"
-    return f"{entry.name}: {value}"
+    return f"{entry.name}: [{value}, …]" if entry.is_list else f"{entry.name}: {value}"

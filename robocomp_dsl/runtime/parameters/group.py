@@ -23,7 +23,7 @@ def build_group(kind: type[GroupT], values: Mapping[str, Any]) -> GroupT:
 
 def _attribute(entry: Parameter | Group, value: Any) -> Any:
     if isinstance(entry, Parameter):
-        return value
+        return list(value) if entry.is_list else value
     if entry.single:
         return build_group(entry.type, value)
     return [build_group(entry.type, group) for group in value]

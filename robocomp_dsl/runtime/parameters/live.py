@@ -15,7 +15,8 @@ from robocomp_dsl.runtime.parameters.errors import ParameterRejected, did_you_me
 from robocomp_dsl.runtime.parameters.group import walk_parameters
 from robocomp_dsl.runtime.parameters.overrides import format_path, parse_path
 from robocomp_dsl.runtime.parameters.scalar import InvalidValue
-from robocomp_dsl.runtime.parameters.schema import Parameter, ParameterGroup, Value
+from robocomp_dsl.runtime.parameters.schema import Element, Parameter, ParameterGroup, Value
+from robocomp_dsl.runtime.parameters.value_list import element_of
 
 _log = logging.getLogger("robocomp.parameters")
 
@@ -30,8 +31,8 @@ class _Change:
     owner: ParameterGroup
     parameter: Parameter
     path: tuple[str | int, ...]
-    old: Value
-    new: Value
+    old: Any
+    new: Any
 
     def call(self, prefix: str, worker: object, value: Value) -> None:
         """Call the hook of this parameter, if the worker has one."""
@@ -56,25 +57,58 @@ def apply_changes(
 def _check_changes(
     root: ParameterGroup, requested: Mapping[str, Any], interpret: Interpret
 ) -> list[_Change]:
-    changes: list[_Change] = []
+    changes: dict[str, _Change] = {}
     reasons: list[str] = []
     known = {path: (owner, parameter) for path, owner, parameter in walk_parameters(root)}
     for path, value in requested.items():
-        owner, parameter = known.get(path, (None, None))
-        if owner is None or parameter is None:
+        name, index = _split_index(path, known)
+        if name not in known:
             reasons.append(_unknown_parameter(path, list(known)))
             continue
+        owner, parameter = known[name]
+        old = getattr(owner, parameter.attribute)
+        former = changes[name].new if name in changes else old
         try:
-            new = _check_value(parameter, path, value, interpret)
+            if index is None:
+                new = _check_value(parameter, path, value, interpret)
+            else:
+                new = _with_element(parameter, name, index, value, former, interpret)
         except InvalidValue as unfit:
             reasons.append("; ".join(filter(None, (str(unfit), unfit.label, unfit.help))))
             continue
-        old = getattr(owner, parameter.attribute)
-        if new != old:
-            changes.append(_Change(owner, parameter, tuple(parse_path(path) or ()), old, new))
+        changes[name] = _Change(owner, parameter, tuple(parse_path(name) or ()), old, new)
     if reasons:
         raise ParameterRejected("\n".join(reasons))
-    return changes
+    return [change for change in changes.values() if change.new != change.old]
+
+
+def _split_index(path: str, known: Mapping[str, tuple[Any, Parameter]]) -> tuple[str, int | None]:
+    """The path of a parameter and None; of an element, those of its list and its position."""
+    steps = parse_path(path)
+    if path in known or not steps or not isinstance(steps[-1], int):
+        return path, None
+    name = format_path(steps[:-1])
+    return (name, steps[-1]) if name in known and known[name][1].is_list else (path, None)
+
+
+def _with_element(
+    parameter: Parameter,
+    name: str,
+    index: int,
+    value: object,
+    former: list[Element],
+    interpret: Interpret,
+) -> list[Element]:
+    """The list `former` with a new value at a position."""
+    if index >= len(former):
+        size = f"{len(former)} element{'' if len(former) == 1 else 's'}"
+        raise InvalidValue(
+            f"`{name}` has {size}, there is no [{index}] (they count from 0)",
+            help=f"set the whole list to change its length, as in `{name}=[…]`",
+        )
+    new = _check_value(element_of(parameter), f"{name}[{index}]", value, interpret)
+    assert isinstance(new, bool | int | float | str)  # noqa: S101 - of one element
+    return [*former[:index], new, *former[index + 1 :]]
 
 
 def _check_value(parameter: Parameter, path: str, value: object, interpret: Interpret) -> Value:

@@ -16,6 +16,7 @@ from robocomp_dsl.regular_file import open_regular
 from robocomp_dsl.runtime.parameters import overrides as command_line
 from robocomp_dsl.runtime.parameters import saved
 from robocomp_dsl.runtime.parameters.check import check_values
+from robocomp_dsl.runtime.parameters.default_lists import with_default_lists
 from robocomp_dsl.runtime.parameters.errors import ConfigError
 from robocomp_dsl.runtime.parameters.properties_text import is_properties, read_properties
 from robocomp_dsl.runtime.parameters.robocomp_keys import (
@@ -48,7 +49,9 @@ def load_values(
         if path is not None and _is_properties_tree(root):
             root = _without_unknown(root, schema, path)
     if root is not None:  # otherwise every required parameter would be reported as missing
-        root = command_line.apply(root, overrides, findings)
+        written = list(overrides)
+        root = with_default_lists(root, schema, written)
+        root = command_line.apply(root, written, findings)
         values = check_values(root, schema, findings)
         if not findings:
             return values

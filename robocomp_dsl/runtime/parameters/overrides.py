@@ -19,6 +19,7 @@ from robocomp_dsl.runtime.parameters.tree import (
     Scalar,
     TextSyntax,
 )
+from robocomp_dsl.runtime.parameters.value_list import split
 
 SOURCE_NAME = "--set"
 """Name of the command line in findings."""
@@ -70,7 +71,7 @@ def set_node(
     root: Mapping,
     path: list[str | int],
     key: Location,
-    leaf: Scalar,
+    leaf: Node,
     findings: list[Finding],
 ) -> Mapping:
     """`root` with `leaf` at `path`; adds a finding at `key` if the path is invalid."""
@@ -88,7 +89,7 @@ class _InvalidPath(Exception):
 
 
 def _replace(
-    node: Node | None, path: list[str | int], depth: int, key: Location, leaf: Scalar
+    node: Node | None, path: list[str | int], depth: int, key: Location, leaf: Node
 ) -> Node:
     """A copy of `node` with `leaf` at `path[depth:]`; aliases of the node are unchanged."""
     if depth == len(path):
@@ -108,6 +109,8 @@ def _replace(
 
 
 def _items(node: Node | None, step: int, above: list[str | int]) -> list[Node]:
+    if isinstance(node, Scalar) and node.style is TextSyntax.RAW:
+        node = Items(node.place, [*split(node)])
     if not isinstance(node, Items | None):
         raise _InvalidPath(
             f"`{format_path(above)}` is {NODE_NAMES[type(node)]}, it has no entry [{step}]"

@@ -30,27 +30,31 @@ def read_properties(text: SourceText, source: str, findings: list[Finding]) -> M
         if not code.strip():
             continue
         place = Location(text, number, column, max(1, len(key)))
+        at = line.find("=") + 1
+        start = at + len(line[at:]) - len(line[at:].lstrip())
         path = [part for part in key.split(".") if part]
         if not equals or not path:
             findings.append(Finding(place, "a line has the form `key = value`"))
             continue
-        _insert(root, path, Scalar(place, _unquoted(value), TextSyntax.RAW))
+        start += _unquoted(value) != value
+        value_place = Location(text, number, start + 1, max(1, len(_unquoted(value))))
+        _insert(root, path, place, Scalar(value_place, _unquoted(value), TextSyntax.RAW))
     return root
 
 
-def _insert(root: Mapping, path: list[str], value: Scalar) -> None:
-    """Set a value; a group takes precedence over a value of the same name."""
+def _insert(root: Mapping, path: list[str], key: Location, value: Scalar) -> None:
+    """Set a value with the place of its key; a group of the same name takes precedence."""
     group = root
     for part in path[:-1]:
         member = group.members.get(part)
         if member is None or not isinstance(member.value, Mapping):
-            member = group.members[part] = Member(value.place, Mapping(value.place))
+            member = group.members[part] = Member(key, Mapping(key))
         inner = member.value
         assert isinstance(inner, Mapping)  # noqa: S101 - ensured above
         group = inner
     former = group.members.get(path[-1])
     if former is None or not isinstance(former.value, Mapping):
-        group.members[path[-1]] = Member(value.place, value)
+        group.members[path[-1]] = Member(key, value)
 
 
 def _without_comment(line: str) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping as Values
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from robocomp_dsl.finding import Finding, SourceText
 from robocomp_dsl.regular_file import read_text
 from robocomp_dsl.runtime.parameters.overrides import parse_path, set_node
 from robocomp_dsl.runtime.parameters.schema import Value
-from robocomp_dsl.runtime.parameters.tree import Mapping, Scalar
+from robocomp_dsl.runtime.parameters.tree import Mapping
 
 _SUFFIX = ".saved.yaml"
 _HEADER = """\
@@ -39,7 +40,7 @@ def apply(root: Mapping, saved: Mapping, findings: list[Finding]) -> Mapping:
     """`root` with the saved values applied."""
     for path, member in saved.members.items():
         found = parse_path(path)
-        if found is None or not isinstance(member.value, Scalar):
+        if found is None or isinstance(member.value, Mapping):
             message = f"`{path:.80}` is not of the form `path: value`"
             findings.append(Finding(member.place, message, help="delete this line"))
             continue
@@ -74,6 +75,8 @@ def write(path: Path, config: Path, values: Values[str, Value]) -> None:
 
 
 def _yaml(value: Value) -> str:
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return f"[{', '.join(map(_yaml, value))}]"
     if isinstance(value, str):
         inner = value.replace("\\", "\\\\").replace('"', '\\"')
         return '"' + "".join(c if c.isprintable() else f"\\U{ord(c):08x}" for c in inner) + '"'

@@ -14,7 +14,7 @@ from numbers import Integral, Real
 from typing import SupportsFloat
 
 from robocomp_dsl.runtime.parameters.errors import did_you_mean
-from robocomp_dsl.runtime.parameters.schema import KIND_NAMES, Parameter, Value
+from robocomp_dsl.runtime.parameters.schema import KIND_NAMES, Element, Parameter, Value
 from robocomp_dsl.runtime.parameters.tree import Scalar, TextSyntax
 
 _DECIMAL = re.compile(r"[-+]?(0|[1-9][0-9]*(_[0-9]+)*)")
@@ -26,6 +26,8 @@ _TRUE = {"true", "yes", "on"}
 _FALSE = {"false", "no", "off"}
 _MAX_DIGITS = 400
 """Maximum number of digits; Python refuses to convert longer numbers anyway."""
+_MOST_SHOWN = 8
+"""Elements of a list that messages show."""
 
 
 class InvalidValue(Exception):
@@ -37,7 +39,7 @@ class InvalidValue(Exception):
         super().__init__(message)
 
 
-def from_scalar(parameter: Parameter, path: str, scalar: Scalar) -> Value:
+def from_scalar(parameter: Parameter, path: str, scalar: Scalar) -> Element:
     """The checked value of `scalar` for `parameter`; `path` is its name in messages."""
     if scalar.style is TextSyntax.PLAIN and scalar.text in ("", "~", "null", "Null", "NULL"):
         raise InvalidValue(f"`{path}` has no value", help=_value_help(parameter))
@@ -49,7 +51,7 @@ def from_scalar(parameter: Parameter, path: str, scalar: Scalar) -> Value:
     return check_range(parameter, path, found)
 
 
-def from_python(parameter: Parameter, path: str, value: object) -> Value:
+def from_python(parameter: Parameter, path: str, value: object) -> Element:
     """The checked value of a Python object for `parameter`; numpy numbers are accepted."""
     match parameter.kind, value:
         case "bool", bool():
@@ -67,7 +69,7 @@ def from_python(parameter: Parameter, path: str, value: object) -> Value:
     raise _wrong_type(parameter, path, f"{value!r:.60}")
 
 
-def check_range(parameter: Parameter, path: str, value: Value) -> Value:
+def check_range(parameter: Parameter, path: str, value: Element) -> Element:
     """`value` itself if it is a choice and within the bounds; else raises `InvalidValue`."""
     if parameter.kind == "choice" and value not in parameter.choices:
         listed = ", ".join(parameter.choices)
@@ -101,7 +103,7 @@ def _text(parameter: Parameter, path: str, scalar: Scalar) -> str:
     return text
 
 
-def _number_or_bool(parameter: Parameter, path: str, text: str) -> Value:
+def _number_or_bool(parameter: Parameter, path: str, text: str) -> Element:
     if len(text) > _MAX_DIGITS:
         raise _wrong_type(parameter, path, "a very long string")
     if parameter.kind == "bool":
@@ -159,6 +161,9 @@ def _value_help(parameter: Parameter) -> str:
 
 def format_value(value: Value) -> str:
     """`value` as written in YAML; a long value is cut."""
+    if not isinstance(value, bool | int | float | str):
+        shown = [format_value(element) for element in value[:_MOST_SHOWN]]
+        return f"[{', '.join((*shown, '…') if len(value) > _MOST_SHOWN else shown)}]"
     match value:
         case bool():
             return str(value).lower()

@@ -6,11 +6,15 @@ base class of generated groups, whose attributes are plain reads (no descriptor,
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal, TypeAlias
 
 Kind: TypeAlias = Literal["string", "int", "float", "bool", "choice"]
-Value: TypeAlias = bool | int | float | str
+Element: TypeAlias = bool | int | float | str
+"""A value, or one of a list."""
+Value: TypeAlias = Element | Sequence[Element]
+"""The value of a parameter; that of a list is a list."""
 
 KIND_NAMES: dict[str, str] = {
     "string": "a string",
@@ -27,7 +31,9 @@ class Parameter:
     """One parameter. `default` None: required. `low` and `high` are inclusive, in `unit`.
 
     `attribute` is its Python name if that differs from `name` (a keyword, or a name that
-    `Parameters` uses itself). `live`: it may change while the component runs.
+    `Parameters` uses itself). `live`: it may change while the component runs. A list of values of
+    `kind` has `shortest` to `longest` elements, None: any number; `shortest` of a single value is
+    None. Choices and bounds apply to each element.
     """
 
     name: str
@@ -40,9 +46,16 @@ class Parameter:
     live: bool = False
     doc: str = ""
     attribute: str = ""
+    shortest: int | None = None
+    longest: int | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "attribute", self.attribute or self.name)
+
+    @property
+    def is_list(self) -> bool:
+        """Whether its value is a list."""
+        return self.shortest is not None
 
 
 class ParameterGroup:

@@ -9,7 +9,9 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator
 
+from robocomp_dsl.runtime.parameters.scalar import format_value
 from robocomp_dsl.runtime.parameters.schema import Group, Parameter, Schema
+from robocomp_dsl.runtime.parameters.value_list import describe_length
 
 _WIDTH = 80
 
@@ -34,12 +36,27 @@ def describe_parameters(schema: Schema, prefix: str = "") -> Iterator[str]:
 def _describe_value(parameter: Parameter) -> str:
     """`<float>  1 to 1000 Hz, 50.0 if not given, may change while running`."""
     kind = "|".join(parameter.choices) if parameter.choices else f"<{parameter.kind}>"
+    if parameter.is_list:
+        kind += ",…"
     facts = [
+        _describe_elements(parameter),
         _describe_range(parameter),
-        f"{parameter.default!r} if not given" if parameter.default is not None else "required",
+        f"{_describe_default(parameter)} if not given"
+        if parameter.default is not None
+        else "required",
     ]
     facts += ["may change while running"] if parameter.live else []
     return f"{kind}  {', '.join(filter(None, facts))}"
+
+
+def _describe_elements(parameter: Parameter) -> str:
+    """`1 to 8 values` of a list."""
+    return f"{describe_length(parameter)} values" if parameter.is_list else ""
+
+
+def _describe_default(parameter: Parameter) -> str:
+    default = parameter.default
+    return format_value(default) if isinstance(default, tuple) else repr(default)
 
 
 def _describe_range(parameter: Parameter) -> str:

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from robocomp_dsl.finding import Finding, Location, SourceText
+from robocomp_dsl.runtime.parameters.toml_arrays import element_places
 from robocomp_dsl.runtime.parameters.tree import Items, Mapping, Member, Node, Scalar, TextSyntax
 
 _PART = r"""(?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')"""
@@ -113,7 +114,9 @@ def _node(
             return Mapping(place, _members(value, path, places, place))
         case list():
             below = [f"{path}[{i}]" for i in range(len(value))]
-            here = [places.get(entry, (place, place))[1] for entry in below]
+            found = list(element_places(place))
+            inside = found if len(found) == len(value) else [place] * len(value)
+            here = [places.get(e, (p, p))[1] for e, p in zip(below, inside, strict=True)]
             return Items(
                 place,
                 [_node(v, b, places, p) for v, b, p in zip(value, below, here, strict=True)],

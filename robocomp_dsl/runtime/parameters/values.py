@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from robocomp_dsl.finding import Location, SourceText
-from robocomp_dsl.runtime.parameters import saved
+from robocomp_dsl.runtime.parameters import saved, value_list
 from robocomp_dsl.runtime.parameters import scalar as scalars
 from robocomp_dsl.runtime.parameters.errors import ParameterRejected
 from robocomp_dsl.runtime.parameters.group import build_group, walk_parameters
@@ -36,6 +36,8 @@ class Description:
     choices: tuple[str, ...]
     live: bool
     doc: str
+    type: str
+    """As PDSL writes it, with the length of a list: `float[1:8]`."""
 
 
 class Parameters(ParameterGroup):
@@ -99,10 +101,10 @@ class Parameters(ParameterGroup):
         """Change live parameters by path, all or none.
 
         Raises `ParameterRejected` with all reasons: unknown, not live, wrong type, out of range, or
-        rejected by a hook.
+        rejected by a hook. `weights[2]` is one element of a list.
         """
         with self._lock:
-            self._changed.update(apply_changes(self, self._worker, changes, scalars.from_python))
+            self._changed.update(apply_changes(self, self._worker, changes, _from_python))
 
     def set_text(self, changes: Mapping[str, str]) -> None:
         """As `set`, with values as typed on a command line."""
@@ -133,8 +135,7 @@ class Parameters(ParameterGroup):
         """Every value by its path."""
         with self._lock:
             return {
-                path: getattr(owner, parameter.attribute)
-                for path, owner, parameter in walk_parameters(self)
+                path: _value(owner, parameter) for path, owner, parameter in walk_parameters(self)
             }
 
     def describe(self) -> list[Description]:
@@ -147,13 +148,25 @@ class Parameters(ParameterGroup):
 
 
 def _description(path: str, owner: ParameterGroup, parameter: Parameter) -> Description:
-    value: Any = getattr(owner, parameter.attribute)
+    value = _value(owner, parameter)
     bounds = (parameter.low, parameter.high, parameter.unit, parameter.choices)
-    return Description(
-        path, parameter.kind, value, parameter.default, *bounds, parameter.live, parameter.doc
-    )
+    kind, default = parameter.kind, parameter.default
+    about = (parameter.live, parameter.doc, value_list.describe_type(parameter))
+    return Description(path, kind, value, default, *bounds, *about)
+
+
+def _value(owner: ParameterGroup, parameter: Parameter) -> Any:
+    """The value; of a list a copy, which the caller may change."""
+    value = getattr(owner, parameter.attribute)
+    return list(value) if parameter.is_list else value
+
+
+def _from_python(parameter: Parameter, path: str, value: object) -> Value:
+    convert = value_list.from_python if parameter.is_list else scalars.from_python
+    return convert(parameter, path, value)
 
 
 def _from_text(parameter: Parameter, path: str, text: str) -> Value:
     place = Location(SourceText(path, (text,)), 1, 1)
-    return scalars.from_scalar(parameter, path, Scalar(place, text, TextSyntax.RAW))
+    convert = value_list.from_text if parameter.is_list else scalars.from_scalar
+    return convert(parameter, path, Scalar(place, text, TextSyntax.RAW))

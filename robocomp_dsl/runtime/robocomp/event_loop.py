@@ -36,6 +36,7 @@ class EventLoop:
     def __init__(self) -> None:
         EventLoop._latest = self
         self.application: Any = None
+        self.leave: Callable[[SystemExit], None] = lambda _: None
         self._lock = threading.RLock()
         self._guard = threading.Lock()
         self._posted: deque[Callable[[], object]] = deque()
@@ -145,6 +146,8 @@ class EventLoop:
                     function()
         except WorkerStopped:
             return
+        except SystemExit as error:
+            self.leave(error)
         except BaseException as error:
             log_failure("a slot", error)
 

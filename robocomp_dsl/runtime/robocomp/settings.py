@@ -10,8 +10,9 @@ from typing import Any, TypeAlias
 
 from robocomp_dsl.runtime.parameters import Parameters
 
-Setting: TypeAlias = tuple[tuple[str, ...], str, bool, tuple[str, str]]
-"""Old key, path of the parameter, whether it is a list, the old spelling of true and false."""
+Setting: TypeAlias = tuple[tuple[str, ...], str, bool, dict[Any, str]]
+"""Old key, path of the parameter, whether it is a list, values that the old file spelled otherwise:
+`1.50`, `TRUE`."""
 
 
 def old_settings(
@@ -34,7 +35,10 @@ def old_settings(
     return result
 
 
-def _text(value: object, texts: tuple[str, str]) -> str:
+def _text(value: Any, texts: dict[Any, str]) -> str:
+    """The text of a value; with the spelling of the old file, unless the value was changed."""
+    if texts and value in texts:
+        return texts[value]
     if isinstance(value, bool):
-        return texts[0] if value else texts[1]
+        return str(value).lower()
     return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)

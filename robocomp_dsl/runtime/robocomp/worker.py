@@ -15,6 +15,12 @@ from typing import Any, ClassVar, TypeAlias
 from robocomp_dsl.runtime.component.component import Component
 from robocomp_dsl.runtime.robocomp.application import WorkerApplication
 from robocomp_dsl.runtime.robocomp.event_loop import EventLoop
+from robocomp_dsl.runtime.robocomp.leaving import (
+    delete,
+    delete_once,
+    end_process_on_exit,
+    leave,
+)
 from robocomp_dsl.runtime.robocomp.machines import DefaultMachine, MachineControl, MachineSignal
 from robocomp_dsl.runtime.robocomp.mutexes import QMutex
 from robocomp_dsl.runtime.robocomp.settings import Setting, old_settings
@@ -70,15 +76,25 @@ class LegacyWorker(Component):
         """Start as RoboComp did; a class without `__init__` has the hook of the component."""
         del self.initialize  # old code may have a method of this name
         old_init = type(self)._old_init
-        self.begin(old_init)
-        if old_init is LegacyWorker.__init__:
-            self.initialize()
+        self._lifecycle.may_block = True  # as with RoboComp: a stop ends a `compute` that waits
+        try:
+            self.begin(old_init)
+            if old_init is LegacyWorker.__init__:
+                self.initialize()
+        except SystemExit as error:
+            self._leave(error)
+            raise
+
+    def _leave(self, error: SystemExit) -> None:
+        """End the component for a `sys.exit`."""
+        leave(self._lifecycle, self._request_stop, error)
 
     def begin(self, old_init: _Init) -> None:
         """Create what the old base class had, and call the old `__init__` and `setParams`."""
         life, clock, name, stop = self._lifecycle, self.clock, self.name, self._request_stop
         loop = self._loop = EventLoop()
         loop.application = WorkerApplication(loop, stop)
+        loop.leave = self._leave
         life.on_stop.append(loop.stop)
         self.Period = DEFAULT_PERIOD_MS
         self.timer = ComputeTimer(loop, life.set_period)
@@ -140,6 +156,10 @@ def _adapt(cls: Any) -> None:
         if hasattr(cls, f"sm_{state}") and f"on_enter_{state}" not in vars(cls):
             setattr(cls, f"on_enter_{state}", _slot(f"sm_{state}"))
     cls.__init__ = LegacyWorker.__init__
+    delete_once(cls)
+    spec = getattr(cls, "SPEC", None)
+    for port in (*spec.implements, *spec.subscribes) if spec else ():
+        end_process_on_exit(cls, port.methods.values())
 
 
 def _slot(name: str) -> Callable[[Any], None]:
@@ -165,14 +185,18 @@ class _LegacyHooks:
 
     def compute(self) -> None:
         """Call the slots of `self.timer`; `compute` itself if the worker never uses the timer."""
-        with self._loop.entered():
-            if self._timer.is_used:
-                self._timer.fire()
-            else:
-                self._worker.compute()
+        try:
+            with self._loop.entered():
+                if self._timer.is_used:
+                    self._timer.fire()
+                else:
+                    self._worker.compute()
+        except SystemExit as error:
+            self._worker._leave(error)
 
     def finalize(self) -> None:
-        """Emit `aboutToQuit`, finalize, and emit `destroyed`."""
+        """Emit `aboutToQuit`, finalize, emit `destroyed`, and call `__del__`."""
         self._loop.application.aboutToQuit.call_slots()
         self._worker.finalize()
         self._worker.destroyed.call_slots()
+        delete(self._worker)

@@ -14,6 +14,7 @@ __all__ = [
     "Duration",
     "Import",
     "Literal",
+    "LiteralList",
     "Name",
     "Node",
     "Number",
@@ -49,6 +50,12 @@ class Bool(Node):
 
 Literal: TypeAlias = Text | Number | Bool | Name
 """A value as written; a `Name` is an enumerator or a bare word."""
+
+
+class LiteralList(Node):
+    """`{1.0, 2.0}`: the values of a list."""
+
+    items: tuple[Literal, ...]
 
 
 class Unit(Node):

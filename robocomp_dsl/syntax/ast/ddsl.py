@@ -6,6 +6,7 @@ from robocomp_dsl.syntax.ast.base import (
     Duration,
     Import,
     Literal,
+    LiteralList,
     Name,
     Node,
     Number,
@@ -29,7 +30,7 @@ class Setting(Node):
     """`set motors[2].min = -1.5;`; `key.text` is the dotted key without spaces."""
 
     key: Name
-    value: Literal
+    value: Literal | LiteralList
 
 
 class Environment(Node):

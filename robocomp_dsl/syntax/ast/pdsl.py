@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
-from robocomp_dsl.syntax.ast.base import Literal, Name, Node, Number, Unit
+from robocomp_dsl.syntax.ast.base import Literal, LiteralList, Name, Node, Number, Unit
 
 
 class Range(Node):
@@ -21,18 +21,20 @@ class Enumeration(Node):
 
 
 class Parameter(Node):
-    """`rate float 50 [Hz] 1:1000 live;`.
+    """`rate float 50 [Hz] 1:1000 live;`; `weights[1:8] float {1.0, 2.0};` is a list of values.
 
     `type` is the identifier as written (possibly invalid) or an enumeration. `default` is a `Name`
-    for an enumeration. The historical flag `T` is accepted and ignored.
+    for an enumeration. `count` is the length of a list. The historical flag `T` is accepted and
+    ignored.
     """
 
     name: Name
     type: Name | Enumeration
-    default: Literal | None = None
+    default: Literal | LiteralList | None = None
     unit: Unit | None = None
     range: Range | None = None
     live: bool = False
+    count: Range | None = None
     doc: str = ""
 
 

@@ -31,9 +31,10 @@ def parse(
 ) -> Any:
     """Parse the source of `findings` and return the result of the builder."""
     parser = ParserState(tables, builder, findings)
-    stack, trail, take = parser.stack, parser.recent_tokens, parser.stream.take
-    actions, words = tables.actions, tables.keyword_terminals
-    resting = tables.item_states if incremental else frozenset()
+    stack, trail, stream = parser.stack, parser.recent_tokens, parser.stream
+    take, ahead, tokens = stream.take, stream.ahead, stream.tokens
+    actions, words, reductions = tables.actions, tables.keyword_terminals, parser.reductions
+    resting = tables.item_states
     token = take()
     while True:
         row = actions[stack[-1][0]]
@@ -42,18 +43,26 @@ def parse(
             action = name_action(row, token.kind)
         if action is None:
             token = _recover(parser, token)
+            tokens = stream.tokens
         elif action < 0:
-            parser.reduce(-1 - action, token.start)
+            reductions[-1 - action](token.start)
             if token.kind == END and stack[-1][0] == tables.accept:
                 return stack[-1][1]
-            if stack[-1][0] in resting and incremental:
-                token = incremental.at_item(parser, token)
+            if stack[-1][0] in resting:
+                if findings.is_closed and not findings.is_truncated:
+                    parser.truncate(token.start)
+                    token = take()
+                elif incremental:
+                    token = incremental.at_item(parser, token)
+                tokens = stream.tokens
         else:
             trail.append(token)
             stack.append((action, token, token.start, token.end))
             if len(stack) > MAX_STACK_DEPTH:
                 _too_deep(parser, token)
-            token = take()
+                tokens = stream.tokens
+            # As `stream.take()`, which takes longer.
+            token = ahead.popleft() if ahead else next(tokens)
 
 
 def _recover(parser: ParserState, token: Token) -> Token:

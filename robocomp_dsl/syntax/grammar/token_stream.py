@@ -24,36 +24,45 @@ class Unrecoverable(Exception):
 
 
 class TokenStream:
-    """An endless sequence of tokens; the last one, `$END`, repeats."""
+    """An endless sequence of tokens; the last one, `$END`, repeats.
+
+    The tokens in `ahead` come before the rest, `tokens`; `reset` replaces the latter.
+    """
 
     def __init__(self, tokens: Iterator[Token]) -> None:
-        self._tokens = tokens
-        self._ahead: deque[Token] = deque()
+        self.tokens = tokens
+        self.ahead: deque[Token] = deque()
+        self.read_end = 0
+        """Offset up to which error recovery has read the text beyond the tokens."""
+
+    def note_read(self, offset: int) -> None:
+        """Recovery has read the text up to `offset`: what it decides depends on that."""
+        self.read_end = max(self.read_end, offset)
 
     def take(self) -> Token:
         """The next token."""
-        return self._ahead.popleft() if self._ahead else next(self._tokens)
+        return self.ahead.popleft() if self.ahead else next(self.tokens)
 
     def peek(self, count: int) -> tuple[Token, ...]:
         """At least the next `count` tokens, or all tokens up to the first `$END`."""
-        ahead = self._ahead
+        ahead = self.ahead
         while len(ahead) < count and not (ahead and ahead[-1].kind == END):
-            ahead.append(next(self._tokens))
+            ahead.append(next(self.tokens))
         return tuple(ahead)
 
     @property
     def has_lookahead(self) -> bool:
         """Whether tokens were peeked that are not taken yet."""
-        return bool(self._ahead)
+        return bool(self.ahead)
 
     def reset(self, tokens: Iterator[Token]) -> None:
         """Continue with other tokens."""
-        self._ahead.clear()
-        self._tokens = tokens
+        self.ahead.clear()
+        self.tokens = tokens
 
     def push_back(self, tokens: Iterable[Token]) -> None:
         """Insert tokens before the remaining ones; the first of them is taken next."""
-        self._ahead.extendleft(reversed(tuple(tokens)))
+        self.ahead.extendleft(reversed(tuple(tokens)))
 
     def truncate(self, at: int) -> None:
         """End the file here, at the offset `at`."""
@@ -93,6 +102,6 @@ class TokenStream:
         raise Unrecoverable(last)
 
     def _peek_next(self) -> Token:
-        if not self._ahead:
-            self._ahead.append(next(self._tokens))
-        return self._ahead[0]
+        if not self.ahead:
+            self.ahead.append(next(self.tokens))
+        return self.ahead[0]

@@ -5,10 +5,13 @@ In: both texts. Out: the positions of the unchanged parts of the old text in the
 
 from __future__ import annotations
 
+import re
+
 from robocomp_dsl.diagnostics import Diagnostic, Edit, Fix, Note
 from robocomp_dsl.source import Source, Span
 
 _MERGE_MARKS = ("<" * 7, "|" * 7, "=" * 7, ">" * 7)
+_MERGE_LINE = re.compile(r"^(?:<{7}|\|{7}|={7}|>{7})(?:[ \r\n]|\Z)", re.MULTILINE)
 
 
 class StaleReference(Exception):
@@ -25,13 +28,12 @@ class TextDelta:
 
     def __init__(self, old: str, new: str) -> None:
         self.start = _common_prefix_length(old, new)
-        rest = min(len(old), len(new)) - self.start
-        behind = _common_prefix_length(old[len(old) - rest :][::-1], new[len(new) - rest :][::-1])
+        behind = _common_suffix_length(old, new, min(len(old), len(new)) - self.start)
         self.end = len(old) - behind
         self.offset = len(new) - len(old)
         line, word = old.rfind("\n", 0, self.start), len(old[: self.start].rstrip()) - 1
         self.lookahead_limit = min(line, word)
-        self.is_local = not any(mark in text for mark in _MERGE_MARKS for text in (old, new))
+        self.is_local = not (_has_merge_marks(old) or _has_merge_marks(new))
 
     def displacement(self, start: int, end: int) -> int | None:
         """By how much [start, end) of the new text has moved; None if it may have been edited."""
@@ -76,3 +78,19 @@ def _common_prefix_length(first: str, second: str) -> int:
         else:
             high = middle - 1
     return low
+
+
+def _common_suffix_length(first: str, second: str, most: int) -> int:
+    """The length of the common suffix, at most `most`."""
+    low, high = 0, most
+    while low < high:
+        middle = (low + high + 1) // 2
+        if first.endswith(second[len(second) - middle : len(second) - low], 0, len(first) - low):
+            low = middle
+        else:
+            high = middle - 1
+    return low
+
+
+def _has_merge_marks(text: str) -> bool:
+    return any(mark in text for mark in _MERGE_MARKS) and bool(_MERGE_LINE.search(text))

@@ -16,6 +16,7 @@ from robocomp_dsl.syntax.ast.base import (
     Duration,
     Import,
     Literal,
+    LiteralList,
     Name,
     Node,
     Number,
@@ -47,12 +48,11 @@ class Builder:
 
     A method gets the span of its rule and the children that the grammar keeps. `ITEM_NAMES` maps
     the items of a block to names for messages; `docs` maps offsets to the doc comments before them.
-    `has_block` becomes true with the top-level block. `ITEMS_ARE_INDEPENDENT`: an item depends on
-    its own text only, so it can be reused while that is unchanged.
+    `has_block` becomes true with the top-level block. An item depends on its own text only, so it
+    can be reused while that is unchanged.
     """
 
     ITEM_NAMES: ClassVar[Mapping[str, str]] = {}
-    ITEMS_ARE_INDEPENDENT: ClassVar = True
 
     def __init__(self, findings: FileDiagnostics) -> None:
         self.findings = findings
@@ -78,6 +78,13 @@ class Builder:
         span = Span(self.findings.region, token.start, token.end)
         return Unit(span, token.text[1:-1].strip())
 
+    def inside(self, bracket: Unit) -> Span:
+        """The range of the text between brackets; all of it if the parser swapped the token."""
+        start = bracket.span.start + bracket.span.text.find(bracket.text)
+        if start < bracket.span.start:
+            return bracket.span
+        return bracket.span.subspan(start, start + len(bracket.text))
+
     def import_file(self, span: Span, path: Text) -> Import:
         """`import "path";`."""
         return Import(span, path)
@@ -85,12 +92,6 @@ class Builder:
     def qualified(self, span: Span, first: Name, second: Name | None) -> QualifiedName:
         """`Name` or `Module::Name`."""
         return QualifiedName(span, second, first) if second else QualifiedName(span, first)
-
-    def inside(self, bracket: Unit) -> Span:
-        """The range of the text in the brackets; all of it if a repair moved the token."""
-        at = bracket.span.text.find(bracket.text)
-        start = bracket.span.start + at
-        return bracket.span.subspan(start, start + len(bracket.text)) if at >= 0 else bracket.span
 
     def lone_semicolon(self, span: Span) -> None:
         """A `;` without a statement."""
@@ -137,6 +138,10 @@ class Builder:
                 fix=self.replace_fix("delete it", span),
             )
         return items
+
+    def literal_list(self, span: Span, *values: Any) -> LiteralList:
+        """`{1.0, 2.0}`."""
+        return LiteralList(span, tuple(map(literal, self.without_trailing_comma(values))))
 
     def duration(self, span: Span, value: Number, unit: Name) -> Duration:
         """`10 s`."""

@@ -116,8 +116,8 @@ class InstancesBuilder(DevicesBuilder):
                 self.report(
                     codes.UNEXPECTED,
                     index.span,
-                    f"expected the index of a group, found `{index.text}`",
-                    help="the first group is `[0]`",
+                    f"expected an index, found `{index.text}`",
+                    help="the first element is `[0]`",
                 )
         written = (f".{p.text}" if isinstance(p, Name) else f"[{p.text}]" for p in parts)
         return Name(span, "".join(written).removeprefix("."))

@@ -6,7 +6,7 @@ In: the rules that the parser recognised in an operation. Out: nodes of `ast.ids
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Sequence
 from typing import Any
 
 from robocomp_dsl.source import Span
@@ -25,6 +25,7 @@ class TemplateType(Node):
     """`vector<X>`, `map<K, V>`: container syntax of other languages, reported as an error."""
 
     types: tuple[QualifiedName, ...]
+    bound: int = 0
 
     @property
     def is_sequence(self) -> bool:
@@ -53,12 +54,16 @@ class OperationsBuilder(LengthsBuilder):
 
     def template(self, span: Span, *children: Any) -> TemplateType:
         """`vector<X>`; the caller reports it."""
-        return TemplateType(span, of_kind(QualifiedName, children))
+        bound = next((child for child in children if isinstance(child, int)), 0)
+        return TemplateType(span, of_kind(QualifiedName, children), bound)
 
     def inline_template(self, span: Span, template: TemplateType) -> QualifiedName:
         """A template used as a type: IDSL containers are declared with a name."""
         written = re.sub(r"\s+", "", span.text)
-        inside = f"<{', '.join(type_.text for type_ in template.types)}>"
+        arguments = [type_.text for type_ in template.types]
+        if template.bound:
+            arguments.append(str(template.bound))
+        inside = f"<{', '.join(arguments)}>"
         right = f"sequence{inside}" if template.is_sequence else f"dictionary{inside}"
         self.report(
             syntax_codes.TEMPLATE_TYPE,
@@ -85,19 +90,20 @@ class OperationsBuilder(LengthsBuilder):
 
     def param(self, span: Span, *children: Any) -> Param:
         """`out Type name [unit]`; a missing name is generated when the operation is built."""
-        index = next(i for i, child in enumerate(children) if isinstance(child, QualifiedName))
+        index = _index_of_type(children)
         kind, name, *brackets = children[index:]
+        out = False
         for direction in children[:index]:
             if direction.text == "idempotent":
                 self._meaningless(direction, "a parameter")
-        out = any(direction.text == "out" for direction in children[:index])
-        unit = self.scalar_unit(name.text if name else kind.text, brackets)
+            out = out or direction.text == "out"
+        unit = self.scalar_unit(name.text if name else kind.text, brackets) if brackets else None
         return Param(span, kind, name or Name(kind.span, ""), out, unit)
 
     def operation(self, span: Span, *children: Any) -> Operation:
         """One operation with its pattern, flags, result, parameters and exceptions."""
-        result = next(child for child in children if isinstance(child, QualifiedName))
-        index = children.index(result)
+        index = _index_of_type(children)
+        result = children[index]
         returned = None if result.text == "void" else result
         return self._operation(span, children[:index], returned, children[index + 1 :])
 
@@ -121,21 +127,26 @@ class OperationsBuilder(LengthsBuilder):
     def _operation(
         self, span: Span, marks: Any, result: QualifiedName | None, children: Any
     ) -> Operation:
-        name, *rest = self._without_inner_comma(children)
+        name, *rest = children
+        params = [child for child in rest if isinstance(child, Param)]
+        throws = of_kind(ThrowsClause, rest)
+        self._report_comma(children)
         pattern: Name | None = None
+        idempotent = False
         for mark in marks:
             if isinstance(mark, Unit):
                 pattern = self.first_of(pattern, self._pattern(mark), "the pattern") or pattern
             elif mark.text == "out":
                 self._meaningless(mark, "an operation")
-        throws = of_kind(ThrowsClause, rest)
+            else:
+                idempotent = True
         return Operation(
             span,
             name,
             result,
-            self._params(of_kind(Param, rest)),
+            self._params(params),
             throws[0].types if throws else (),
-            any(isinstance(m, Name) and m.text == "idempotent" for m in marks),
+            idempotent,
             pattern,
             self.doc(span),
         )
@@ -145,8 +156,8 @@ class OperationsBuilder(LengthsBuilder):
         self.check_choice(word, PATTERNS, "pattern")
         return word
 
-    def _params(self, params: tuple[Param, ...]) -> tuple[Param, ...]:
-        """The parameters, with generated names for unnamed ones."""
+    def _params(self, params: list[Param]) -> tuple[Param, ...]:
+        """The parameters, with generated names for unnamed ones; `params` is changed."""
         if len(params) == 1 and not params[0].name.text and params[0].type.text == "void":
             self.report(
                 legacy_codes.UNNAMED_PARAMETER,
@@ -155,13 +166,18 @@ class OperationsBuilder(LengthsBuilder):
                 fix=self.replace_fix("delete `void`", params[0].span),
             )
             return ()
-        named = tuple(self._named(number, param) for number, param in enumerate(params, start=1))
-        self._out_last(named)
-        return named
+        is_out = False
+        for index, param in enumerate(params):
+            if not param.name.text:
+                params[index] = self._named(index + 1, param)
+        for param in params:
+            if is_out and not param.out:
+                self._report_order(params)
+                break
+            is_out = param.out
+        return tuple(params)
 
     def _named(self, number: int, param: Param) -> Param:
-        if param.name.text:
-            return param
         name, end = f"arg{number}", param.type.span.end
         self.report(
             legacy_codes.UNNAMED_PARAMETER,
@@ -172,11 +188,9 @@ class OperationsBuilder(LengthsBuilder):
         )
         return Param(param.span, param.type, Name(param.type.span, name), param.out, param.unit)
 
-    def _out_last(self, params: tuple[Param, ...]) -> None:
+    def _report_order(self, params: list[Param]) -> None:
         """Report `out` parameters before inputs: Slice and C++ expect them last."""
         ordered = sorted(params, key=lambda param: param.out)
-        if ordered == list(params):
-            return
         late = next(p for i, p in enumerate(params) if not p.out and params[i - 1].out and i)
         moves = zip(params, ordered, strict=True)
         edits = ((old.span.start, old.span.end, new.span.text) for old, new in moves)
@@ -196,10 +210,17 @@ class OperationsBuilder(LengthsBuilder):
             fix=self.replace_fix("delete it", word.span),
         )
 
-    def _without_inner_comma(self, children: Iterable[Any]) -> list[Any]:
-        """The items without the comma after the last parameter; more items may follow it."""
-        items = [child for child in children if child is not None]
-        index = next((i for i, c in enumerate(items) if isinstance(c, Name) and c.text == ","), -1)
-        if index < 0:
-            return items
-        return [*self.without_trailing_comma(items[: index + 1]), *items[index + 1 :]]
+    def _report_comma(self, children: Sequence[Any]) -> None:
+        """Report a comma after the last parameter; more items may follow it."""
+        for index, child in enumerate(children):
+            if isinstance(child, Name) and child.text == ",":
+                self.without_trailing_comma(children[: index + 1])
+                return
+
+
+def _index_of_type(children: Sequence[Any]) -> int:
+    """Where the type is: behind the marks."""
+    index = 0
+    while not isinstance(children[index], QualifiedName):
+        index += 1
+    return index

@@ -85,19 +85,16 @@ def parse_source(language: str, builder: type[Builder], source: Source, report: 
 
 def _parse(language: str, builder: type[Builder], source: Source) -> tuple[Any, Builder, Report]:
     """The tree, its builder and the diagnostics; an edited text is parsed incrementally."""
-    cache = source.parse_cache if builder.ITEMS_ARE_INDEPENDENT else None
+    cache = source.parse_cache
     findings = FileDiagnostics(source, Report())
     tree_builder = builder(findings)
     if cache is None:
         return parse(load(language), tree_builder, findings), tree_builder, findings.report
     from robocomp_dsl.syntax.incremental.incremental import IncrementalParse  # noqa: PLC0415 - editor only
 
-    incremental = IncrementalParse(cache.get(language), findings)
+    incremental = IncrementalParse(cache.get(language, ()), findings)
     file = parse(load(language), tree_builder, findings, incremental)
-    if incremental.reused and findings.limit_reached:
-        del cache[language]
-        return _parse(language, builder, source)
-    cache[language] = incremental.new_cache()
+    cache[language] = incremental.new_history()
     return file, tree_builder, findings.report
 
 

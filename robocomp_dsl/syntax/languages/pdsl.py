@@ -6,21 +6,24 @@ In: a source. Out: the tree and syntax diagnostics.
 from __future__ import annotations
 
 import re
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeGuard
 
 from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax.ast import pdsl as ast
-from robocomp_dsl.syntax.ast.base import Bool, Literal, Name, Number, Text, Unit
+from robocomp_dsl.syntax.ast.base import Bool, Literal, LiteralList, Name, Number, Text, Unit
 from robocomp_dsl.syntax.codes import legacy as legacy_codes
 from robocomp_dsl.syntax.codes import syntax as syntax_codes
+from robocomp_dsl.syntax.languages.bracketed import is_length, list_in_brackets
 from robocomp_dsl.syntax.languages.builder import Builder, of_kind, parse_number
 from robocomp_dsl.syntax.languages.parse_source import parse_source
 from robocomp_dsl.syntax.languages.pdsl_ranges import repair_range
 
 _COUNT = re.compile(r"(\d*)(\s*:\s*)?(\d*)")
+_BOUNDS = re.compile(r"(\d+)\s*(?:,|-|\.\.+)\s*(\d+)")
+"""How other languages write a length: `[1, 8]`, `[1..8]`."""
 _FLAG = re.compile(r"[A-Z]")
-_NO_UNIT = re.compile(r"[-+.]?\d[\d.]*\s*:|:\s*[-+.]?\d|\d+\Z")
+_NO_UNIT = re.compile(r"[-+.]?\d[\d.]*\s*:|:\s*[-+.]?\d|[-+]?\d[\d.]*\Z")
 
 
 def parse(source: Source, report: Report) -> ast.File:
@@ -57,19 +60,23 @@ class PdslBuilder(Builder):
 
     def group(self, span: Span, name: Name, count: Unit | None, *items: Any) -> ast.Group:
         """`name[1:32] { … };`."""
-        return ast.Group(span, name, _members(items), self._count(count), self.doc(span))
+        length = self._count(count, "groups")
+        return ast.Group(span, name, _members(items), length, self.doc(span))
 
-    def _count(self, count: Unit | None) -> ast.Range | None:
-        """The number of groups in a list; the tokens are the same as those of a unit."""
+    def _count(self, count: Unit | None, noun: str) -> ast.Range | None:
+        """The length of a list of `noun`; the tokens are the same as those of a unit."""
         if count is None:
             return None
         match = _COUNT.fullmatch(count.text)
         if not match:
+            bounds = _BOUNDS.fullmatch(count.text)
+            right = f"[{bounds[1]}:{bounds[2]}]" if bounds else ""
             self.report(
                 syntax_codes.UNEXPECTED,
                 count.span,
-                f"expected a number of groups, found `{count.text}`",
-                help="write `[1:32]` for one to 32 groups, `[3]` for three, `[]` for any number",
+                f"expected a number of {noun}, found `{count.text}`",
+                help=f"write `[1:32]` for one to 32 {noun}, `[3]` for three, `[]` for any number",
+                fix=self.replace_fix(f"write `{right}`", count.span, right) if right else None,
             )
             return ast.Range(count.span, None, None)
         start = self.inside(count).start
@@ -93,15 +100,25 @@ class PdslBuilder(Builder):
         return ast.Range(span, None, high)
 
     def parameter(
-        self, span: Span, name: Name, kind: Name | ast.Enumeration, *attributes: Any
+        self,
+        span: Span,
+        name: Name,
+        count: Unit | None,
+        kind: Name | ast.Enumeration,
+        default: Literal | LiteralList | None,
+        *attributes: Any,
     ) -> ast.Parameter:
-        """`name type default [unit] low:high live;`."""
-        default: Literal | None = None
+        """`name[1:8] type default [unit] low:high live;`."""
+        if count is None and attributes and self._is_late_length(attributes[0], kind, name):
+            count, attributes = attributes[0], attributes[1:]
         unit: Unit | None = None
         bounds: ast.Range | None = None
         live: Name | None = None
         for attribute in repair_range(attributes, self):
-            if isinstance(attribute, Unit) and _NO_UNIT.match(attribute.text):
+            if isinstance(attribute, Unit) and (items := self._list(attribute, kind, count)):
+                self.first_of(default, items, "the default")
+                default = default or items
+            elif isinstance(attribute, Unit) and _NO_UNIT.match(attribute.text):
                 self._numbers_in_brackets(attribute, name)
             elif isinstance(attribute, Unit):
                 unit = self.first_of(unit, attribute, "the unit")
@@ -115,11 +132,53 @@ class PdslBuilder(Builder):
                 )
             else:
                 default = self._default(default, attribute)
+        length = self._count(count, "values")
+        is_live = live is not None
         return ast.Parameter(
-            span, name, kind, default, unit, bounds, live is not None, self.doc(span)
+            span, name, kind, default, unit, bounds, is_live, length, self.doc(span)
         )
 
-    def _is_flag(self, word: Name, kind: Name | ast.Enumeration, default: Literal | None) -> bool:
+    def _is_late_length(
+        self, attribute: Any, kind: Name | ast.Enumeration, name: Name
+    ) -> TypeGuard[Unit]:
+        """`weights float[8]`: the length follows the type, and is reported."""
+        if not isinstance(attribute, Unit) or not is_length(attribute):
+            return False
+        if attribute.span.start != kind.span.end:
+            return False
+        at, (start, end) = name.span.end, (attribute.span.start, attribute.span.end)
+        text = attribute.span.text
+        self.report(
+            syntax_codes.UNEXPECTED,
+            attribute.span,
+            "the length of a list is written after the name",
+            fix=self.findings.fix(f"write `{name.text}{text}`", (at, at, text), (start, end, "")),
+        )
+        return True
+
+    def _list(
+        self, unit: Unit, kind: Name | ast.Enumeration, count: Unit | None
+    ) -> LiteralList | None:
+        """The values of a list that is written in brackets, which is reported."""
+        items = list_in_brackets(unit)
+        if items is None or not _has_values(items, kind, count):
+            return None
+        written = f"{{{unit.text}}}"
+        self.report(
+            syntax_codes.UNEXPECTED,
+            unit.span,
+            "the values of a list are written in braces",
+            label="brackets contain a unit",
+            fix=self.replace_fix(f"write `{written}`", unit.span, written),
+        )
+        return items
+
+    def _is_flag(
+        self,
+        word: Name,
+        kind: Name | ast.Enumeration,
+        default: Literal | LiteralList | None,
+    ) -> bool:
         """Whether a word is `live` or a historical flag, and not the default of an enumeration."""
         choices = kind.choices if isinstance(kind, ast.Enumeration) else ()
         if default is None and word.text in {choice.text for choice in choices}:
@@ -155,10 +214,12 @@ class PdslBuilder(Builder):
             syntax_codes.UNEXPECTED,
             unit.span,
             f"`{unit.text}` is not a unit",
-            help=f"for a list, declare a group: `{name.text}[{unit.text}] {{ … }};`",
+            help=f"the length of a list is written after its name: `{name.text}[{unit.text}]`",
         )
 
-    def _default(self, first: Literal | None, literal: Text | Number | Name) -> Literal:
+    def _default(
+        self, first: Literal | LiteralList | None, literal: Text | Number | Name
+    ) -> Literal | LiteralList:
         value: Literal = literal
         if isinstance(literal, Name) and literal.text.lower() in ("true", "false"):
             value = Bool(literal.span, literal.text.lower() == "true")
@@ -177,6 +238,17 @@ class PdslBuilder(Builder):
             label="write units in brackets",
             fix=self.replace_fix(f"write `[{text.value}]`", text.span, f"[{text.value}]"),
         )
+
+
+def _has_values(items: LiteralList, kind: Name | ast.Enumeration, count: Unit | None) -> bool:
+    """Whether these are values and no unit; the name of a unit may be that of a choice."""
+    if len(items.items) > 1 or any(isinstance(item, Text) for item in items.items):
+        return True
+    if count is None:
+        return False
+    choices = kind.choices if isinstance(kind, ast.Enumeration) else ()
+    names = {choice.text for choice in choices}
+    return all(not isinstance(i, Name) or i.text in names for i in items.items)
 
 
 def _members(items: Any) -> tuple[ast.Member, ...]:

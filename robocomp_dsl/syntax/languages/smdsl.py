@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax.ast import smdsl as ast
-from robocomp_dsl.syntax.ast.base import Duration, Name, Number
+from robocomp_dsl.syntax.ast.base import Duration, Name, Node, Number
 from robocomp_dsl.syntax.codes import legacy as legacy_codes
 from robocomp_dsl.syntax.codes import syntax as syntax_codes
 from robocomp_dsl.syntax.languages.builder import TIME_UNITS, BlockSetting, Builder, of_kind
@@ -23,10 +23,16 @@ def parse(source: Source, report: Report) -> ast.File:
     return file
 
 
+class DocumentedState(Node):
+    """A name in `states`, with the doc comment before it."""
+
+    name: Name
+    doc: str
+
+
 class SmdslBuilder(Builder):
     """Builds the nodes of `ast.smdsl`."""
 
-    ITEMS_ARE_INDEPENDENT: ClassVar = False  # blocks look up the docs of their states
     ITEM_NAMES: ClassVar = {
         "file_item": "a machine or `:state { … };`",
         "machine_item": "`states`, `initial_state`, `end_state`, `transitions`",
@@ -66,21 +72,21 @@ class SmdslBuilder(Builder):
 
     def _content(self, span: Span, items: Any) -> dict[str, Any]:
         lists = [item for item in items if isinstance(item, list)]
-        states = tuple(s for item in lists for s in item if isinstance(s, Name))
-        starts = [(s.text, s.span.start) for s in states]
+        states = [s for item in lists for s in item if isinstance(s, DocumentedState)]
         return {
-            "states": states,
+            "states": tuple(state.name for state in states),
             "edges": tuple(e for item in lists for e in item if isinstance(e, ast.Edge)),
             "doc": self.doc(span),
-            "state_docs": tuple(
-                (name, self.docs[offset]) for name, offset in starts if offset in self.docs
-            ),
+            "state_docs": tuple((state.name.text, state.doc) for state in states if state.doc),
             **self.settings(items),
         }
 
-    def states(self, _span: Span, *names: Any) -> list[Any]:
+    def states(self, _span: Span, *names: Any) -> list[DocumentedState]:
         """`states a, b;`."""
-        return self.without_trailing_comma(names)
+        return [
+            DocumentedState(name.span, name, self.doc(name.span))
+            for name in self.without_trailing_comma(names)
+        ]
 
     def initial_state(self, span: Span, name: Name) -> BlockSetting:
         """`initial_state a;`."""

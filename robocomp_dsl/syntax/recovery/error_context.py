@@ -13,6 +13,9 @@ from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
 from robocomp_dsl.syntax.grammar.tables import Tables, name_action
 
+LOOK_BACK = 1000
+"""Characters before a statement that a repair may look at: the statement before, keywords."""
+
 WINDOW = 5
 """A repair after which this many tokens are accepted is considered correct."""
 

@@ -17,9 +17,15 @@ from robocomp_dsl.syntax.codes.legacy import EMPTY_STATEMENT
 from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Lexer, Token
-from robocomp_dsl.syntax.grammar.lr_state import ParserState, StackEntry
+from robocomp_dsl.syntax.grammar.lr_state import ParserState
+from robocomp_dsl.syntax.grammar.reductions import StackEntry
 from robocomp_dsl.syntax.grammar.token_stream import Unrecoverable
-from robocomp_dsl.syntax.recovery.error_context import ErrorContext, describe_expected, quote_token
+from robocomp_dsl.syntax.recovery.error_context import (
+    LOOK_BACK,
+    ErrorContext,
+    describe_expected,
+    quote_token,
+)
 from robocomp_dsl.syntax.recovery.repair import Repair, panic_mode, trailing_text
 from robocomp_dsl.syntax.recovery.repair_choice import all_repairs, choose_repair
 
@@ -27,8 +33,6 @@ LOOK_AHEAD = 24
 _STATEMENT_ENDS = ("_SEMI", "LBRACE", "RBRACE", END)
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _NAME = re.compile(r"[A-Za-z_]\w*")
-MAX_STATEMENT = 1000
-"""Characters of a statement that is read again together with the next one."""
 
 MAX_SUPPRESSED = 500
 """Consecutive follow-on errors after which the rest of the file is skipped."""
@@ -54,9 +58,10 @@ def _correct_or_drop(parser: ParserState) -> None:
     if outside and (not begun or (item and item[0].kind == "ID")):
         _skip_trailing_text(parser, context, item, base)
         return
-    before = _statement_before(parser, base, (item or context.lookahead)[0].start)
-    repair = choose_repair(context, all_repairs(context, before, item, base + 1))
     start = (item or context.lookahead)[0].start
+    _note_dependence(parser, context, start)
+    before = _statement_before(parser, base, start)
+    repair = choose_repair(context, all_repairs(context, before, item, base + 1))
     if repair:
         _report(parser, context, repair, start, _end_of_statement(context, item))
         _apply(parser, repair)
@@ -105,7 +110,7 @@ def _statement_before(parser: ParserState, base: int, end: int) -> list[Token]:
     items, source = parser.stack[base][1], parser.findings.source
     last = items[-1] if isinstance(items, list) and items else None
     start = last.span.start if isinstance(last, Node) else _last_boundary(source.text, end)
-    if not 0 < end - start <= MAX_STATEMENT:
+    if not 0 < end - start <= LOOK_BACK:
         return []
     lexer = Lexer(source, parser.tables, FileDiagnostics(source, Report()))
     return list(takewhile(lambda token: token.start < end, lexer.tokens(start)))
@@ -185,9 +190,19 @@ def _uncertain_text(context: ErrorContext, repair: Repair, start: int, end: int)
     return UncertainText(context.source.span(start, end), names, repair.declares)
 
 
+def _note_dependence(parser: ParserState, context: ErrorContext, start: int) -> None:
+    """Note how far the recovery looks back from the statement at `start`."""
+    if context.open_braces:
+        opened, token = context.open_braces[-1].start, context.lookahead[0]
+        # A block that is not closed may end anywhere in it. At the end all is recovered anew.
+        is_in_block = token.kind in parser.tables.keyword_terminals
+        start = opened if is_in_block else max(opened, start - LOOK_BACK)
+    else:
+        start = max(start - LOOK_BACK, 0)
+    parser.findings.depends_from = start
+
+
 def _apply(parser: ParserState, repair: Repair) -> None:
-    if repair.since >= 0:
-        parser.findings.depends_from = repair.since
     for _ in range(repair.skip):
         parser.stream.take()
     if repair.keep:

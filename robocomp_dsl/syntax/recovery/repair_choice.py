@@ -20,6 +20,8 @@ from robocomp_dsl.syntax.recovery import repair_tokens as whole
 from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair
 from robocomp_dsl.syntax.recovery.repair_bridge import bridge_mistakes
+from robocomp_dsl.syntax.recovery.repair_earlier_keyword import misspelled_earlier_keyword
+from robocomp_dsl.syntax.recovery.repair_lists import list_mistakes
 
 _CLOSED = ("RBRACE", "_SEMI")
 
@@ -60,6 +62,7 @@ def all_repairs(
     if not item and not context.lookahead[0].kind.endswith(("ID", "_TYPE")):
         yield from whole.swapped_tokens(context, item, keep)
         yield from whole.missing_keyword(context, before)
+    yield from list_mistakes(context, accepted)
     yield from whole.doubled_token(context, item, keep)
     yield from whole.name_behind_parenthesis(context, item, keep)
     yield from whole.doubled_sign(context, accepted)
@@ -80,6 +83,7 @@ def all_repairs(
     yield from words.invalid_name(context, accepted)
     yield from operands.missing_operand(context, accepted)
     yield from words.foreign_modifier(context, item, keep)
+    yield from misspelled_earlier_keyword(context, item, keep)
     yield from _block(context, [], 0)
     yield from _at_statement_start(context, item, keep)
     yield from signs.wrong_bracket(context, accepted)

@@ -222,7 +222,7 @@ def earlier_punctuation(
         there = context.replace(states=states, previous=item[index - 1], lookahead=item[index:])
         at = item[index - 1].end
         for kind, text in _accepted_punctuation(there, there.accepted_terminals()):
-            if text in _CLOSING or (text == "{" and not _closes_list(context)):
+            if text in "})>" or (text == "{" and not _closes_list(context)):
                 continue
             yield Repair(
                 syntax_codes.MISSING_PUNCTUATION,

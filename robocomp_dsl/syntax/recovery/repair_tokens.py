@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from robocomp_dsl.syntax.codes import syntax as codes
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
-from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token
+from robocomp_dsl.syntax.recovery.error_context import LOOK_BACK, WINDOW, ErrorContext, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair
 from robocomp_dsl.syntax.recovery.repair_operands import declares_name
 
@@ -35,9 +35,6 @@ _ONCE = frozenset(
     )
 )
 """Keywords of statements that a block has once, in lower case."""
-
-_BLOCK = 4000
-"""Characters of a block in which such a statement is searched."""
 
 _NOT_SUGGESTED = frozenset(("unsigned", "gui", "env"))
 """Keywords before a name that are omitted less often than the name behind them."""
@@ -227,5 +224,5 @@ def _words_of_block(context: ErrorContext) -> frozenset[str]:
     """The words around the error in the innermost block, in lower case."""
     at = context.lookahead[0].start
     first = context.open_braces[-1].start if context.open_braces else 0
-    near = context.source.text[max(first, at - _BLOCK) : context.lookahead[-1].end]
+    near = context.source.text[max(first, at - LOOK_BACK) : context.lookahead[-1].end]
     return frozenset(re.findall(r"\w+", near.lower()))

@@ -28,7 +28,7 @@ AT_LIMIT = 0.005
 """A joint this close to a limit is at the limit [rad]."""
 TOWARDS = 1e-5
 """Numerical tolerance of a motion towards a touch [m]."""
-_SAMPLES = 8
+_FEWEST_SAMPLES = 8
 _PROJECTIONS = 40
 _SHORT = 0.3
 _FEW = 0.2
@@ -102,6 +102,14 @@ class PoseDirections:
                 return reached
             reached = angles
         return goal
+
+    def is_free(self, pose: Floats, goal: Floats) -> bool:
+        """Whether the straight way from `pose` (n,) to `goal` (n,) keeps the margin.
+
+        Between them the arm may be as close to the robot as in the closer one of the two poses.
+        """
+        floor = min(self._floor(pose), self._floor(goal))
+        return all(self.body.clearance(p, self.margin) >= floor for p in _way(pose, goal)[:-1])
 
     def _floor(self, pose: Floats) -> float:
         """The distance to keep: the margin, or that of `pose` if it is closer already."""
@@ -211,7 +219,8 @@ class PoseDirections:
 
 def _way(pose: Floats, goal: Floats) -> Floats:
     """Poses (k, n) on the straight way in joint space, `goal` included."""
-    shares = np.linspace(0.0, 1.0, _SAMPLES + 1)[1:, None]
+    count = max(_FEWEST_SAMPLES, int(np.ceil(np.linalg.norm(goal - pose) / STEP)))
+    shares = np.linspace(0.0, 1.0, count + 1)[1:, None]
     way: Floats = pose + shares * (goal - pose)
     return way
 

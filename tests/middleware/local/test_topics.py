@@ -155,6 +155,23 @@ def test_depth_of_the_subscriber_limits_the_queue_of_the_publisher(side: Open) -
     assert len(slow.numbers) <= 6
 
 
+def test_subscriber_with_depth_takes_the_last_publications_of_a_publisher_that_closed(
+    side: Open,
+) -> None:
+    slow, subscriber = Slow(), side("s")
+    record = subscriber.subscribe({"taken": slow.taken}, FRAMES, Qos(depth=4))
+    publish = side("p").publisher(FRAMES, record)
+    publish("taken", 0, PIXELS)
+    slow.entered.wait(60)
+    publish("taken", 1, PIXELS)
+    publish("taken", 2, PIXELS)
+    publish.publisher.close()
+    slow.free.set()
+    wait_until(lambda: slow.numbers == [0, 1, 2])
+    wait_until(lambda: "s.Frames" not in [thread.name for thread in threading.enumerate()])
+    assert subscriber.failures == []
+
+
 def test_reliable_publisher_waits_for_a_slow_subscriber(side: Open) -> None:
     slow = Slow()
     qos = Qos(reliable=True, depth=4)

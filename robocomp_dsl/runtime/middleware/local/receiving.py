@@ -217,8 +217,15 @@ class _Connection:
         return self._receive(0)
 
     def take_latest(self) -> Received:
-        """The next packet of those that the queue keeps, after all that have arrived."""
+        """The next packet of those that the queue keeps, after all that have arrived.
+
+        Raises `QueueClosed` after the last packet of a connection that has ended.
+        """
         queue = self._queue
+        if self._ended:
+            if not queue:
+                raise QueueClosed
+            return queue.popleft()
         if queue or _COUNT.unpack(fcntl.ioctl(self.socket, termios.FIONREAD, _ZERO))[0]:
             try:
                 while True:

@@ -17,6 +17,7 @@ from robocomp_dsl.runtime.component.user_errors import describe_error
 from robocomp_dsl.runtime.middleware.ros1.node import RosNode
 from robocomp_dsl.runtime.middleware.ros1.xmlrpc import RosApi
 from robocomp_dsl.runtime.parameters import ParameterRejected
+from robocomp_dsl.runtime.parameters.value_list import format_list
 from robocomp_dsl.runtime.parameters.values import Description
 
 _INT32 = range(-(2**31), 2**31)
@@ -83,6 +84,8 @@ class MasterParameters:
 
     def _apply(self, described: Description, value: Any) -> None:
         text = str(value).lower() if isinstance(value, bool) else str(value)
+        if isinstance(value, list | tuple):
+            text = format_list(value)
         try:
             self._parameters.set_text({described.name: text})
         except ParameterRejected as error:

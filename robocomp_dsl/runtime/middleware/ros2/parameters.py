@@ -16,6 +16,7 @@ from rclpy.parameter import Parameter
 from robocomp_dsl.runtime.component.shown_parameters import ShownParameters
 from robocomp_dsl.runtime.component.user_errors import describe_error
 from robocomp_dsl.runtime.parameters import ParameterRejected
+from robocomp_dsl.runtime.parameters.value_list import format_list
 from robocomp_dsl.runtime.parameters.values import Description
 
 REFRESH_S = 1.0
@@ -55,7 +56,8 @@ class RosParameters:
         changed = [
             Parameter(described.name, value=described.value)
             for described in self._parameters.describe()
-            if described.live and self._node.get_parameter(described.name).value != described.value
+            if described.live
+            and not _is_same(self._node.get_parameter(described.name).value, described.value)
         ]
         if changed:
             self._is_refreshing = True
@@ -80,6 +82,13 @@ def _descriptor(described: Description) -> Any:
     )
 
 
+def _is_same(shown: Any, value: Any) -> bool:
+    """Whether ROS shows a value; it shows lists of numbers as arrays."""
+    return list(shown) == value if isinstance(value, list) else bool(shown == value)
+
+
 def _text(value: Any) -> str:
-    """A value as on the command line."""
+    """A value as on the command line; rclpy gives lists of numbers as arrays."""
+    if not isinstance(value, bool | int | float | str):
+        return format_list(value)
     return str(value).lower() if isinstance(value, bool) else str(value)

@@ -21,11 +21,15 @@ class MotorsGroup(ParameterGroup):
     SCHEMA = (
         Parameter("name", "string", default="m", doc="What it is called on the bus."),
         Parameter("min", "float", default=-3.14, low=-6.29, high=6.29, unit="rad"),
+        Parameter(
+            "limits", "float", default=(-1.0, 1.0), shortest=2, longest=2, unit="rad"
+        ),
         Group("gains", GainsGroup, low=0, high=3),
     )
     # What it is called on the bus.
     name: str
     min: float
+    limits: list[float]
     gains: list[GainsGroup]
 
 
@@ -55,6 +59,41 @@ class ArmParams(Parameters):
         Parameter(
             "mode", "choice", default="position", choices=("position", "velocity")
         ),
+        Parameter(
+            "weights",
+            "float",
+            default=(1.0,),
+            low=0.0,
+            high=10.0,
+            shortest=1,
+            longest=8,
+            unit="kg",
+            live=True,
+            doc="One for each finger.",
+        ),
+        Parameter(
+            "offsets",
+            "float",
+            default=(0.0, 0.5, 1.0),
+            shortest=3,
+            longest=3,
+            unit="rad",
+            live=True,
+        ),
+        Parameter("ids", "int", default=(), low=0, high=127, shortest=0),
+        Parameter("names", "string", default=("left", "right"), shortest=0, longest=4),
+        Parameter(
+            "modes",
+            "choice",
+            default=("velocity", "velocity"),
+            shortest=2,
+            longest=2,
+            choices=("position", "velocity"),
+        ),
+        Parameter("marks", "bool", default=(False,) * 9, shortest=9, longest=9),
+        Parameter(
+            "models", "string", default=("etc/config.yaml",), shortest=1, longest=2
+        ),
         Group("motors", MotorsGroup, low=2, high=32),
         Group("limits", LimitsGroup, single=True, doc="Every key is optional here."),
     )
@@ -64,6 +103,14 @@ class ArmParams(Parameters):
     retries: int
     fast: bool
     mode: Literal["position", "velocity"]
+    # One for each finger.
+    weights: list[float]
+    offsets: list[float]
+    ids: list[int]
+    names: list[str]
+    modes: list[Literal["position", "velocity"]]
+    marks: list[bool]
+    models: list[str]
     motors: list[MotorsGroup]
     # Every key is optional here.
     limits: LimitsGroup
