@@ -63,7 +63,7 @@ def change(session: Session, path: Path, version: int, old: str, new: str) -> No
 
 
 @pytest.mark.parametrize("suffix", sorted(LANGUAGES))
-@settings(max_examples=12, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=8, deadline=None, suppress_health_check=list(HealthCheck))
 @given(seed=st.integers(0, 2**32))
 def test_session_checks_an_edited_document_as_a_new_one(suffix: str, seed: int) -> None:
     rng = random.Random(seed)

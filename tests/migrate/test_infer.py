@@ -267,7 +267,7 @@ def test_infer_keeps_spelling_of_values(tmp_path: Path, written: str, texts: obj
 def test_infer_writes_lists_of_values(tmp_path: Path) -> None:
     file = tmp_path / "config.toml"
     file.write_text(f"gains = [1, 2.5]\nlong = {list(range(100, 140))}\nnone = []\n")
-    config = read_config(file, Report())
+    config = read_config(Source.read(file), Report())
     assert config
     parameters = infer([(config, config.entries)], Report())
     pdsl = pdsl_text("moved", parameters.tree, "config.toml")

@@ -57,7 +57,7 @@ class SpecificWorker(GenericWorker):
         QTimer.singleShot(50, lambda: self.ui.horizontalSlider_pos.setSliderPosition(90))
 
     def __del__(self):
-        \"\"\"Destructor\"\"\"
+        print("CLOSED", flush=True)
 
     def setParams(self, params):
         print("PARAMS", params, flush=True)
@@ -185,6 +185,7 @@ def test_migrated_window_keeps_timers_signals_and_slots(rcgen, tmp_path: Path) -
         assert eye.wait_for("REPORT") == "REPORT 20 20"
         eye.wait_for("CENTER")
         assert eye.wait_for_end() == 0
+        eye.wait_for("CLOSED")
 
 
 def test_migrated_window_keeps_state_machine_and_second_form(rcgen, tmp_path: Path) -> None:

@@ -132,3 +132,24 @@ def test_migrated_state_machine_runs(rcgen, tmp_path: Path) -> None:
         assert states.stop() == 0
     lines = [line for line in states.lines if " | " not in line]
     assert lines == ["start", "first 1", "first 2", "first 3", "second", "over"]
+
+
+def test_migrated_worker_that_waits_stops_normally(rcgen, tmp_path: Path) -> None:
+    folder = tmp_path / "waits"
+    (folder / "src").mkdir(parents=True)
+    (folder / "waits.cdsl").write_text("Component waits { Communications { }; language python; };")
+    (folder / "src" / "specificworker.py").write_text(
+        "from genericworker import *\n"
+        "import threading\n"
+        "class SpecificWorker(GenericWorker):\n"
+        "    def compute(self):\n"
+        "        print('WAITING', flush=True)\n"
+        "        threading.Event().wait(3600)\n"
+        "    def __del__(self):\n"
+        "        print('CLOSED', flush=True)\n"
+    )
+    assert rcgen("migrate", folder).code == 0
+    with running(tmp_path / "waits-migrated", "--middleware", "inproc") as waits:
+        waits.wait_for("WAITING")
+        assert waits.stop() == 0
+    assert "CLOSED" in waits.lines

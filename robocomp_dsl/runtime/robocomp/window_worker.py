@@ -13,6 +13,7 @@ from typing import Any
 
 from robocomp_dsl.runtime.gui.qt import QtCore
 from robocomp_dsl.runtime.robocomp.event_loop import EventLoop
+from robocomp_dsl.runtime.robocomp.leaving import delete
 from robocomp_dsl.runtime.robocomp.worker import (
     DEFAULT_PERIOD_MS,
     LegacyWorker,
@@ -57,3 +58,7 @@ class LegacyWindow(LegacyWorker):
         self._add_machine(loop)
         self._lifecycle.set_period(0)  # the timer calls `compute`
         self._call_old_methods(old_init)
+
+    def finalize(self) -> None:
+        """Call `__del__`, which closes devices."""
+        delete(self)
