@@ -145,8 +145,7 @@ class Report:
 
     def replace(self, removed: Iterable[Diagnostic], added: Diagnostic) -> None:
         """Put one diagnostic in the place of others."""
-        for old in removed:
-            self._diagnostics.pop((old.code.id, old.span, old.message), None)
+        self.discard(removed)
         self.extend((added,))
 
     def __iter__(self) -> Iterator[Diagnostic]:

@@ -22,6 +22,9 @@ check_definitions, groups in one process through one_process.
 The parts of a bridge (`bdsl/`): declarations, ports, hubs, outputs, services; values go through
 expressions (types, bottom up), fitting (type and unit of the target) and assignments.
 
+The last pass, `causes`, leaves one finding for each mistake: without what follows from a syntax
+error, and at the declaration that is misspelled or has no name.
+
 Every pass continues after an error, so one run reports all of them. No check raises because of the
 content of a file. `workspace/` caches everything that did not change since the last run.
 """

@@ -8,7 +8,7 @@ was skipped or has lost its name, or if it says that something is missing in the
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Protocol
 
 from robocomp_dsl.diagnostics import Diagnostic, Report, UncertainText
@@ -16,6 +16,7 @@ from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.follow_on import about_uncertain_text
 
 _NAME = re.compile(r"[A-Za-z_]\w*")
+_QUOTED = re.compile(r"`([A-Za-z_]\w*)`")
 
 
 class ParsedFile(Protocol):
@@ -40,7 +41,7 @@ def discard_follow_on_errors(report: Report, file: ParsedFile) -> None:
 
 
 def _about_lost_text(
-    diagnostics: Iterable[Diagnostic], uncertain: Sequence[UncertainText]
+    diagnostics: Sequence[Diagnostic], uncertain: Sequence[UncertainText]
 ) -> list[Diagnostic]:
     """The diagnostics about names and statements that may be in text that could not be read."""
     from robocomp_dsl.check.codes import (  # noqa: PLC0415 - after syntax errors only
@@ -65,9 +66,12 @@ def _about_lost_text(
         devices.UNKNOWN_DEVICE.id,
         groups.UNKNOWN_DEFINITION.id,
         groups.UNKNOWN_MEMBER.id,
-        parameters.PARAMETER_DEFAULT_VALUE.id,
         placement.UNKNOWN_LABEL.id,
         states.UNKNOWN_STATE.id,
+        types.NOT_AN_EXCEPTION.id,
+        types.NOT_A_TYPE.id,
+        devices.DEVICE_ACTION.id,
+        groups.ENVIRONMENT_CONFLICT.id,
     }
     omissions = {
         deployment.UNSATISFIED_REQUIREMENT.id,
@@ -80,14 +84,24 @@ def _about_lost_text(
         states.NO_INITIAL_STATE.id,
         states.UNREACHABLE_STATE.id,
     }
-    declares = any(text.declares for text in uncertain)
     lost = frozenset[str]().union(*(text.names for text in uncertain))
+    words = {
+        found: _words(found) for found in diagnostics if found.unknown or found.code.id in unknown
+    }
+    # Each declaration without a name explains one unknown name. Of several, one that resembles a
+    # known name is rather misspelled.
+    explained = sum(text.declares for text in uncertain)
+    distinct = {found.span.text for found in words}
+    is_explained = len(distinct) <= explained
     return [
         found
         for found in diagnostics
         if found.code.id in omissions
-        or (
-            found.code.id in unknown
-            and (declares or not lost.isdisjoint(_NAME.findall(found.span.text)))
-        )
+        or not lost.isdisjoint(words.get(found, ()))
+        or (found in words and explained and (is_explained or not found.label))
     ]
+
+
+def _words(found: Diagnostic) -> list[str]:
+    """The names that the finding is about."""
+    return [*_NAME.findall(found.span.text), *_QUOTED.findall(found.message)]

@@ -8,8 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from robocomp_dsl.check.follow_on import discard_follow_on_errors
-from robocomp_dsl.check.names.misspelled_declarations import report_misspelled_declarations
+from robocomp_dsl.check.causes import report_causes
 from robocomp_dsl.check.workspace.loaded import transitive_errors
 from robocomp_dsl.check.workspace.source_cache import Parsed, Parser
 from robocomp_dsl.check.workspace.workspace import Workspace
@@ -26,6 +25,7 @@ if TYPE_CHECKING:  # start-up time: modules are imported in the functions that n
     from robocomp_dsl.model.interface import Module
     from robocomp_dsl.model.parameter import ParameterSet
     from robocomp_dsl.model.statemachine import StateMachine
+    from robocomp_dsl.syntax.ast import bdsl, cdsl, ddsl
 
 Tree = TypeVar("Tree")
 
@@ -52,15 +52,22 @@ def check_cdsl(path: Path, workspace: Workspace, report: Report) -> Component | 
     file = parse(path, parse_cdsl, workspace, report)
     if file is None or file.tree.component is None:
         return None
-    resolved = resolve_cdsl(file, file.tree.component, workspace, report)
-    check_cdsl_rules(resolved, report)
-    report_misspelled_declarations(report)
-    if file.tree.component.gui:
-        from robocomp_dsl.check.cdsl.window import check_form  # noqa: PLC0415 - for windows
 
-        check_form(file.tree.component.gui, path.parent, workspace, report)
-    discard_follow_on_errors(report, file)
-    return resolved.component
+    def resolve(file: Parsed[cdsl.File], report: Report) -> Component | None:
+        tree = file.tree.component
+        if tree is None:
+            return None
+        resolved = resolve_cdsl(file, tree, workspace, report)
+        check_cdsl_rules(resolved, report)
+        if tree.gui:
+            from robocomp_dsl.check.cdsl.window import check_form  # noqa: PLC0415 - for windows
+
+            check_form(tree.gui, path.parent, workspace, report)
+        return resolved.component
+
+    component = resolve(file, report)
+    report_causes(report, file, parse_cdsl, resolve)
+    return component
 
 
 def check_pdsl(path: Path, workspace: Workspace, report: Report) -> ParameterSet | None:
@@ -68,9 +75,7 @@ def check_pdsl(path: Path, workspace: Workspace, report: Report) -> ParameterSet
     from robocomp_dsl.check.pdsl.resolve import resolve_pdsl  # noqa: PLC0415
 
     file = parse(path, parse_pdsl, workspace, report)
-    parameters = resolve_pdsl(file, report) if file else None
-    report_misspelled_declarations(report)
-    return parameters
+    return resolve_pdsl(file, report) if file else None
 
 
 def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment | None:
@@ -80,9 +85,12 @@ def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment |
     file = parse(path, parse_ddsl, workspace, report)
     if file is None:
         return None
-    deployment = resolve_ddsl(file, workspace, check_cdsl, report)
-    discard_follow_on_errors(report, file)
-    report_misspelled_declarations(report)
+
+    def resolve(file: Parsed[ddsl.File], report: Report) -> Deployment | None:
+        return resolve_ddsl(file, workspace, check_cdsl, report)
+
+    deployment = resolve(file, report)
+    report_causes(report, file, parse_ddsl, resolve)
     return deployment
 
 
@@ -94,9 +102,13 @@ def check_bdsl(path: Path, workspace: Workspace, report: Report) -> Bridge | Non
     file = parse(path, parse_bdsl, workspace, report)
     if file is None or file.tree.bridge is None:
         return None
-    bridge = resolve_bdsl(file, file.tree.bridge, workspace, report)
-    discard_follow_on_errors(report, file)
-    report_misspelled_declarations(report)
+
+    def resolve(file: Parsed[bdsl.File], report: Report) -> Bridge | None:
+        tree = file.tree.bridge
+        return resolve_bdsl(file, tree, workspace, report) if tree else None
+
+    bridge = resolve(file, report)
+    report_causes(report, file, parse_bdsl, resolve)
     return bridge
 
 
@@ -105,12 +117,10 @@ def check_state_machine(path: Path, workspace: Workspace, report: Report) -> Sta
     from robocomp_dsl.check.states.state_machines import MACHINES  # noqa: PLC0415
 
     try:
-        machine = MACHINES[path.suffix.lower()](path, workspace, report)
+        return MACHINES[path.suffix.lower()](path, workspace, report)
     except UnreadableSource as error:
         _report_unreadable(path, error, report)
         return None
-    report_misspelled_declarations(report)
-    return machine
 
 
 def check_innermodel(path: Path, workspace: Workspace, report: Report) -> InnerModel | None:

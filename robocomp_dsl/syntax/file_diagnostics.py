@@ -28,6 +28,7 @@ class FileDiagnostics:
     """The diagnostics of `source`; `errors` and `warnings` are counts.
 
     `is_truncated`: the rest of the file is skipped, so missing tokens at the end are not reported.
+    `depends_from`: an error depends on the text from there on, although it was parsed before.
     `region` is the owner of the spans in the tree: `source`, or the region that is being parsed.
     """
 
@@ -37,6 +38,7 @@ class FileDiagnostics:
         self.errors = 0
         self.warnings = 0
         self.is_truncated = False
+        self.depends_from: int | None = None
         self.region: Source | TextRegion = source
         self._noted: set[str] = set()
 

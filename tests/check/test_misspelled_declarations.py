@@ -50,11 +50,13 @@ bridge b
 """
 CASES = [
     (".idsl", IDSL, "struct Point3D", "struct Pont3D", 2),
+    (".idsl", IDSL.replace("Points", "Point3Ds"), "struct Point3D", "struct Pont3D", 2),
     (".idsl", IDSL, "enum Mode", "enum Mdoe", 1),
     (".idsl", IDSL, "> Points", "> Poinnts", 1),
     (".idsl", IDSL, "exception Lost", "exception Losst", 2),
     (".smdsl", SMDSL, "initial_state Waiting", "initial_state Waitign", 2),
     (".smdsl", SMDSL, "states Busy", "states Buzsy", 3),
+    (".smdsl", SMDSL.replace("Busy", "Ill"), "states Ill", "states Inl", 3),
     (".smdsl", SMDSL, "end_state Over", "end_state Ovver", 1),
     (".smdsl", SMDSL, "states Right", "states Rigth", 1),
     (".bdsl", BDSL, "input joints", "input jonits", 5),

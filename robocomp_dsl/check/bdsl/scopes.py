@@ -191,8 +191,6 @@ def reply_parameters(operation: Operation) -> tuple[Param, ...]:
 
 def reject_name(name: Name, known: list[str], context: BridgeContext, noun: str = "") -> NoReturn:
     """Report an unknown name; `noun` is what it should be. Raises `FaultyExpression`."""
-    if not context.is_complete:
-        raise FaultyExpression
     report_unknown_name(
         context.report,
         codes.UNKNOWN_BRIDGE_NAME,

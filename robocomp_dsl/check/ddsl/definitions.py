@@ -17,10 +17,11 @@ from robocomp_dsl.check.ddsl.components import (
     imported_components,
 )
 from robocomp_dsl.check.names.duplicates import report_duplicate
+from robocomp_dsl.check.names.unknown_names import report_unknown_name
 from robocomp_dsl.check.workspace.referenced_files import errors_of
 from robocomp_dsl.check.workspace.source_cache import Parsed, canonical_path
 from robocomp_dsl.check.workspace.workspace import Workspace
-from robocomp_dsl.diagnostics import Note, Report, nearest
+from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.source import UnreadableSource
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Node
@@ -160,24 +161,25 @@ class DefinitionFiles:
         file = self.file_of(group)
         if name is None or file.components.broken:
             return
-        guess = nearest(name.text, file.visible)
-        help_ = ""
-        notes = []
+        message = f"there is no definition of a group `{name.text}`"
         if name.text in siblings:
-            notes = [Note(siblings[name.text].span, f"`{name.text}` is a group of its own")]
-            help_ = "move it out of the `Deployment`: outside, a group is a definition"
-        elif not guess:
-            known = ", ".join(f"`{n}`" for n in file.visible)
-            help_ = (
-                f"known: {known}"
-                if known
-                else 'write `group NAME { … };` outside of the deployment, or `import "arm.ddsl";`'
+            report.add(
+                codes.UNKNOWN_DEFINITION,
+                name.span,
+                message,
+                notes=[Note(siblings[name.text].span, f"`{name.text}` is a group of its own")],
+                help="move it out of the `Deployment`: outside, a group is a definition",
             )
-        report.add(
+            return
+        known = ", ".join(f"`{n}`" for n in file.visible)
+        report_unknown_name(
+            report,
             codes.UNKNOWN_DEFINITION,
-            name.span,
-            f"there is no definition of a group `{name.text}`",
-            label=f"did you mean `{guess}`?" if guess else "",
-            notes=notes,
-            help=help_,
+            name,
+            message,
+            file.visible,
+            f"known: {known}"
+            if known
+            else 'write `group NAME { … };` outside of the deployment, or `import "arm.ddsl";`',
+            declared=[definition.name.span for definition in file.groups.values()],
         )

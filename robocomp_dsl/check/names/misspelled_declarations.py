@@ -3,8 +3,8 @@
 In: the findings of a file. Out: the same findings, but one error at a misspelled declaration
 instead of one at each use.
 
-A declaration is misspelled if uses agree on one unknown name, the declaration is the only one of
-the right kind with a similar name, and nothing uses it. If there is only one use, either of the two
+A declaration is misspelled if uses agree on one unknown name, the declaration is of the right kind,
+no other one has a name as similar, and nothing uses it. If there is only one use, either of the two
 may be misspelled: `word_plausibility` decides.
 """
 
@@ -24,6 +24,9 @@ from robocomp_dsl.diagnostics import (
     is_similar,
 )
 from robocomp_dsl.source import Source, Span
+
+SHORTEST = 3
+"""Letters of the shortest name that may be a misspelled one with one other letter."""
 
 MAX_NAMES = 20
 """Number of different unknown names for which a misspelled declaration is looked for."""
@@ -62,17 +65,19 @@ def count_words(text: str) -> Counter[str]:
 def _misspelled(
     text: str, source: Source, group: Sequence[Diagnostic], words: Counter[str], report: Report
 ) -> Span | None:
-    """The only declaration in `source` that the uses of `text` may refer to and no other name."""
+    """The declaration in `source` that the uses of `text` refer to, and no other name."""
     spans = chain.from_iterable(use.unknown.declared for use in group if use.unknown)
+    has_several = len({use.span for use in group}) > 1
+    alike = _is_similar if has_several else is_similar
     candidates = [
         span
         for span in dict.fromkeys(spans)
-        if span.source is source and words[span.text] == 1 and is_similar(text, span.text)
+        if span.source is source and words[span.text] == 1 and alike(text, span.text)
     ]
-    if len(candidates) != 1:
+    declaration = _most_similar(text, candidates)
+    if declaration is None:
         return None
-    declaration = candidates[0]
-    if len({use.span for use in group}) > 1 or _fixed_at(declaration, text, report):
+    if has_several or _fixed_at(declaration, text, report):
         return declaration
     from robocomp_dsl.check.names.word_plausibility import is_more_plausible  # noqa: PLC0415
 
@@ -101,6 +106,23 @@ def _move(declaration: Span, group: Sequence[Diagnostic], report: Report) -> Non
             fix=replace_fix(declaration, text),
         )
     report.replace([*group, *warnings, *([same] if same else [])], moved)
+
+
+def _most_similar(text: str, candidates: Sequence[Span]) -> Span | None:
+    """The name that is most similar to `text`; None if two are equally similar."""
+    if len(candidates) < 2:
+        return candidates[0] if candidates else None
+    from difflib import SequenceMatcher  # noqa: PLC0415 - rarely needed
+
+    ratios = [SequenceMatcher(None, text, span.text).ratio() for span in candidates]
+    best = max(ratios)
+    return candidates[ratios.index(best)] if ratios.count(best) == 1 else None
+
+
+def _is_similar(text: str, declared: str) -> bool:
+    """Whether one may be a misspelling of the other; short names may differ in one letter."""
+    differing = sum(a != b for a, b in zip(text, declared, strict=False))
+    return is_similar(text, declared) or (differing == 1 and len(text) == len(declared) >= SHORTEST)
 
 
 def _fixed_at(declaration: Span, text: str, report: Report) -> Diagnostic | None:

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from robocomp_dsl.check.causes import report_causes
 from robocomp_dsl.check.codes import parameters as codes
 from robocomp_dsl.check.doc_comments import documentation_of, plain
-from robocomp_dsl.check.follow_on import discard_follow_on_errors
 from robocomp_dsl.check.literals import TypeMismatch, as_float, as_int, join_names
 from robocomp_dsl.check.names.duplicates import unique_by_name
 from robocomp_dsl.check.pdsl.defaults import resolve_default
@@ -20,6 +20,7 @@ from robocomp_dsl.diagnostics import Report, nearest
 from robocomp_dsl.model.parameter import PATH, Kind, Parameter, ParameterSet
 from robocomp_dsl.syntax.ast import pdsl as ast
 from robocomp_dsl.syntax.ast.base import Name, Number
+from robocomp_dsl.syntax.parse import parse_pdsl
 
 KINDS = {
     "string": Kind.STRING,
@@ -44,11 +45,16 @@ _NUMBERS = (Kind.INT, Kind.FLOAT)
 
 def resolve_pdsl(file: Parsed[ast.File], report: Report) -> ParameterSet | None:
     """The parameters of a file; None if it has no parameter block."""
+    parameters = _resolve(file, report)
+    report_causes(report, file, parse_pdsl, _resolve)
+    return parameters
+
+
+def _resolve(file: Parsed[ast.File], report: Report) -> ParameterSet | None:
     tree = file.tree.parameters
     if tree is None:
         return None
     members = _members(tree.members, report)
-    discard_follow_on_errors(report, file)
     return ParameterSet(tree.name.text, file.source.path, tree.name.span, members, plain(tree.doc))
 
 

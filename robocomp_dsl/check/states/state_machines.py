@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from robocomp_dsl.check.follow_on import discard_follow_on_errors
+from robocomp_dsl.check.causes import report_causes
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
@@ -22,12 +22,16 @@ def smdsl_machine(file: Parsed[smdsl.File], report: Report) -> StateMachine | No
     from robocomp_dsl.check.states.resolve_smdsl import resolve_smdsl  # noqa: PLC0415 - on first use
     from robocomp_dsl.check.states.rules_smdsl import check_smdsl_rules  # noqa: PLC0415
 
-    resolved = resolve_smdsl(file, report)
-    if resolved is None:
-        return None
-    check_smdsl_rules(*resolved, report)
-    discard_follow_on_errors(report, file)
-    return resolved[0]
+    def resolve(file: Parsed[smdsl.File], report: Report) -> StateMachine | None:
+        resolved = resolve_smdsl(file, report)
+        if resolved is None:
+            return None
+        check_smdsl_rules(*resolved, report)
+        return resolved[0]
+
+    machine = resolve(file, report)
+    report_causes(report, file, parse_smdsl, resolve)
+    return machine
 
 
 def scxml_machine(file: Parsed[innermodel.File], report: Report) -> StateMachine | None:

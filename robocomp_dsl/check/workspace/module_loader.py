@@ -9,12 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from robocomp_dsl.check.causes import report_causes
 from robocomp_dsl.check.codes import names as codes
-from robocomp_dsl.check.follow_on import discard_follow_on_errors
 from robocomp_dsl.check.idsl.resolve import resolve_idsl
 from robocomp_dsl.check.idsl.rules import check_idsl_rules
 from robocomp_dsl.check.names.import_scope import ImportScope, Tree
-from robocomp_dsl.check.names.misspelled_declarations import report_misspelled_declarations
 from robocomp_dsl.check.names.suggest import ImportSuggestion, suggest_import
 from robocomp_dsl.check.workspace.import_resolver import ImportResolver
 from robocomp_dsl.check.workspace.imports import (
@@ -29,6 +28,7 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.interface import Module
 from robocomp_dsl.source import UnreadableSource
 from robocomp_dsl.syntax.ast.base import Import, QualifiedName
+from robocomp_dsl.syntax.ast.idsl import File
 from robocomp_dsl.syntax.parse import DEFINITIONS, parse_idsl
 
 MAX_DEPTH = 50
@@ -112,19 +112,24 @@ class ModuleLoader:
         return True
 
     def _resolve(self, path: Path) -> LoadedModule:
-        parsed = self._files.parse(path, DEFINITIONS.get(path.suffix.lower(), parse_idsl))
+        parser = DEFINITIONS.get(path.suffix.lower(), parse_idsl)
+        parsed = self._files.parse(path, parser)
         report = Report()
         report.extend(parsed.diagnostics)
         links = tuple(self.resolve_imports(parsed.tree.imports, report))
-        modules: list[Module] = []
-        for tree in parsed.tree.modules:
-            scope = self.import_scope(parsed, links, modules)
-            resolved = resolve_idsl(tree, path, scope, report)
-            check_idsl_rules(resolved, report)
-            modules.append(resolved.module)
-        discard_follow_on_errors(report, parsed)
-        report_misspelled_declarations(report)
-        return LoadedModule(parsed, links, tuple(modules), tuple(report))
+
+        def resolve(file: Parsed[File], report: Report) -> tuple[Module, ...]:
+            modules: list[Module] = []
+            for tree in file.tree.modules:
+                scope = self.import_scope(file, links, modules)
+                resolved = resolve_idsl(tree, path, scope, report)
+                check_idsl_rules(resolved, report)
+                modules.append(resolved.module)
+            return tuple(modules)
+
+        modules = resolve(parsed, report)
+        report_causes(report, parsed, parser, resolve)
+        return LoadedModule(parsed, links, modules, tuple(report))
 
     def import_scope(
         self, file: Parsed[Tree], links: Sequence[ResolvedImport], earlier: Sequence[Module] = ()

@@ -48,6 +48,7 @@ class IncrementalParse:
 
     def new_history(self) -> tuple[ParseCache, ...]:
         """The history for the next parse: this one, the last one, and one without errors."""
+        self._close_checkpoints()
         this = ParseCache(
             self._findings.source,
             self._checkpoints,
@@ -62,6 +63,7 @@ class IncrementalParse:
 
         Returns the next token to parse.
         """
+        self._close_checkpoints()
         if (
             len(machine.stack) > MAX_STACK_DEPTH
             or machine.stream.has_lookahead
@@ -100,6 +102,19 @@ class IncrementalParse:
         self._checkpoints += checkpoints
         self._last = checkpoints[-1].start
         self._region = self._new_region()
+
+    def _close_checkpoints(self) -> None:
+        """Close the checkpoints between an error and the earlier text that it depends on.
+
+        No later parse skips from one of them.
+        """
+        since, self._findings.depends_from = self._findings.depends_from, None
+        if since is None:
+            return
+        for number, checkpoint in enumerate(self._checkpoints):
+            if checkpoint.start >= since:
+                snapshot = checkpoint.snapshot._replace(suppressed=-1)
+                self._checkpoints[number] = checkpoint._replace(snapshot=snapshot)
 
     def _new_region(self) -> TextRegion:
         self._findings.region = piece = TextRegion(self._findings.source)

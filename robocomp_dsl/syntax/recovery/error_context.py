@@ -13,6 +13,9 @@ from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
 from robocomp_dsl.syntax.grammar.tables import Tables, name_action
 
+LOOK_BACK = 1000
+"""Characters before a statement that a repair may look at: the statement before, keywords."""
+
 WINDOW = 5
 """A repair after which this many tokens are accepted is considered correct."""
 
@@ -34,7 +37,8 @@ _TERMINAL_NAMES = {
 class ErrorContext(ValueRecord):
     """`lookahead[0]` is the unexpected token, `previous` the last accepted one.
 
-    `open_braces` are the braces that are not closed yet, innermost last.
+    `open_braces` are the braces that are not closed yet, innermost last. `lone_semicolons` are the
+    offsets of superfluous `;` that are apart from the one before.
     """
 
     tables: Tables
@@ -43,6 +47,7 @@ class ErrorContext(ValueRecord):
     previous: Token
     lookahead: Sequence[Token]
     open_braces: Sequence[Token]
+    lone_semicolons: Sequence[int] = ()
 
     def count_accepted(self, kinds: Iterable[str]) -> int:
         """How many of the terminals are accepted, one after the other."""

@@ -13,22 +13,26 @@ from itertools import takewhile
 from robocomp_dsl.diagnostics import Report, UncertainText
 from robocomp_dsl.syntax.ast.node import Node
 from robocomp_dsl.syntax.codes import file as codes
+from robocomp_dsl.syntax.codes.legacy import EMPTY_STATEMENT
 from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Lexer, Token
 from robocomp_dsl.syntax.grammar.lr_state import ParserState
 from robocomp_dsl.syntax.grammar.reductions import StackEntry
 from robocomp_dsl.syntax.grammar.token_stream import Unrecoverable
-from robocomp_dsl.syntax.recovery.error_context import ErrorContext, describe_expected, quote_token
+from robocomp_dsl.syntax.recovery.error_context import (
+    LOOK_BACK,
+    ErrorContext,
+    describe_expected,
+    quote_token,
+)
 from robocomp_dsl.syntax.recovery.repair import Repair, panic_mode, trailing_text
 from robocomp_dsl.syntax.recovery.repair_choice import all_repairs, choose_repair
-from robocomp_dsl.syntax.recovery.repair_statements import token_before_semicolon
 
 LOOK_AHEAD = 24
 _STATEMENT_ENDS = ("_SEMI", "LBRACE", "RBRACE", END)
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _NAME = re.compile(r"[A-Za-z_]\w*")
-MAX_STATEMENT = 1000
-"""Characters of a statement that is read again together with the next one."""
 
 MAX_SUPPRESSED = 500
 """Consecutive follow-on errors after which the rest of the file is skipped."""
@@ -46,14 +50,6 @@ def recover(parser: ParserState) -> None:
 
 
 def _correct_or_drop(parser: ParserState) -> None:
-    base, item = _statement(parser)
-    # Complete, but not reduced because of the unexpected token behind it.
-    if item and item[-1].kind == "_SEMI":
-        context = _error_context(parser)
-        if repair := choose_repair(context, token_before_semicolon(item, base + 1)):
-            _report(parser, context, repair, item[0].start, _end_of_statement(context, ()))
-            _apply(parser, repair)
-            return
     _complete_statement(parser)
     base, item = _statement(parser)
     begun = len(parser.stack) > base + 1
@@ -62,9 +58,10 @@ def _correct_or_drop(parser: ParserState) -> None:
     if outside and (not begun or (item and item[0].kind == "ID")):
         _skip_trailing_text(parser, context, item, base)
         return
-    before = _statement_before(parser, base, (item or context.lookahead)[0].start)
-    repair = choose_repair(context, all_repairs(context, before, item, base + 1))
     start = (item or context.lookahead)[0].start
+    _note_dependence(parser, context, start)
+    before = _statement_before(parser, base, start)
+    repair = choose_repair(context, all_repairs(context, before, item, base + 1))
     if repair:
         _report(parser, context, repair, start, _end_of_statement(context, item))
         _apply(parser, repair)
@@ -110,14 +107,19 @@ def _tokens_since(parser: ParserState, start: int) -> list[Token]:
 
 def _statement_before(parser: ParserState, base: int, end: int) -> list[Token]:
     """The tokens of the statement that ends before `end`; none if it is long or has a block."""
-    items = parser.stack[base][1]
+    items, source = parser.stack[base][1], parser.findings.source
     last = items[-1] if isinstance(items, list) and items else None
-    start = last.span.start if isinstance(last, Node) else end
-    source = parser.findings.source
-    if not 0 < end - start <= MAX_STATEMENT:
+    start = last.span.start if isinstance(last, Node) else _last_boundary(source.text, end)
+    if not 0 < end - start <= LOOK_BACK:
         return []
     lexer = Lexer(source, parser.tables, FileDiagnostics(source, Report()))
     return list(takewhile(lambda token: token.start < end, lexer.tokens(start)))
+
+
+def _last_boundary(text: str, end: int) -> int:
+    """Behind the `;` or brace before the `;` before `end`; maybe one in a comment."""
+    semicolon = text.rfind(";", 0, end)
+    return max(text.rfind(sign, 0, max(semicolon, 0)) for sign in ";{}") + 1
 
 
 def _error_context(parser: ParserState) -> ErrorContext:
@@ -128,7 +130,15 @@ def _error_context(parser: ParserState) -> ErrorContext:
         previous=parser.recent_tokens[-1] if parser.recent_tokens else Token("", "", 0, 0),
         lookahead=parser.stream.peek(LOOK_AHEAD),
         open_braces=_opened(parser.stack),
+        lone_semicolons=_lone_semicolons(parser.findings),
     )
+
+
+def _lone_semicolons(findings: FileDiagnostics) -> list[int]:
+    """The offsets of superfluous `;` behind a blank: what is left of `};` without its brace."""
+    text = findings.source.text
+    ends = (found.span.end for found in findings.report if found.code is EMPTY_STATEMENT)
+    return [end - 1 for end in ends if text[max(end - 2, 0)].isspace()]
 
 
 def _opened(entries: list[StackEntry]) -> list[Token]:
@@ -170,12 +180,26 @@ def _uncertain_text(context: ErrorContext, repair: Repair, start: int, end: int)
     """What is uncertain about the statement [start, end) after the repair."""
     if repair.is_certain:
         return UncertainText(context.source.span(start, start))
-    is_skipped = not (repair.replacement or repair.skip)
+    previous, text = context.previous, context.source.text
     if 0 <= repair.since < start:
         start = repair.since
-    text = context.source.text[start:end] if is_skipped else ""
-    names = frozenset(_NAME.findall(text))
+    elif previous.kind == "LBRACE" and start == context.lookahead[0].start:
+        start = text.rfind("\n", 0, previous.start) + 1
+    statement = _COMMENT.sub("", text[start:end]) if repair.loses_names else ""
+    names = frozenset(_NAME.findall(statement))
     return UncertainText(context.source.span(start, end), names, repair.declares)
+
+
+def _note_dependence(parser: ParserState, context: ErrorContext, start: int) -> None:
+    """Note how far the recovery looks back from the statement at `start`."""
+    if context.open_braces:
+        opened, token = context.open_braces[-1].start, context.lookahead[0]
+        # A block that is not closed may end anywhere in it. At the end all is recovered anew.
+        is_in_block = token.kind in parser.tables.keyword_terminals
+        start = opened if is_in_block else max(opened, start - LOOK_BACK)
+    else:
+        start = max(start - LOOK_BACK, 0)
+    parser.findings.depends_from = start
 
 
 def _apply(parser: ParserState, repair: Repair) -> None:
@@ -190,7 +214,7 @@ def _apply(parser: ParserState, repair: Repair) -> None:
 
 def _end_of_statement(context: ErrorContext, item: Sequence[Token]) -> int:
     """The end of the next token that ends the statement or begins a block."""
-    kinds = [token.kind for token in item]
+    kinds = [token.kind for token in item or (context.previous,)]
     depth = kinds.count("LBRACE") - kinds.count("RBRACE")
     for token in context.lookahead:
         if token.kind in _STATEMENT_ENDS and (token.kind != "RBRACE" or depth <= 0):

@@ -22,6 +22,7 @@ class Repair(ValueRecord):
 
     At least `required` of the following tokens must be accepted. `is_certain`: what was meant is
     known, so the statement is checked further. `declares`: a declaration remains without a name.
+    `loses_names`: what the names in the statement are is not known.
     `since`: where the faulty text begins if it is before the statement.
     The other fields are the diagnostic: `edits` are its fix; an empty message means "expected …,
     found …".
@@ -42,6 +43,7 @@ class Repair(ValueRecord):
     required: int = 3
     is_certain: bool = False
     declares: bool = False
+    loses_names: bool = False
     since: int = -1
 
     def report(self, findings: FileDiagnostics, expected: str, uncertain: UncertainText) -> None:
@@ -65,12 +67,19 @@ def panic_mode(context: ErrorContext, item: Sequence[Token]) -> Repair:
     if module := context.nested_module(item):
         message = "modules cannot be nested"
         help_text = "move it to its own file and import that; this module is skipped"
-        return Repair(syntax_codes.MISPLACED, module.start, module.end, message, help=help_text)
+        return Repair(
+            syntax_codes.MISPLACED,
+            module.start,
+            module.end,
+            message,
+            help=help_text,
+            loses_names=True,
+        )
     if context.lookahead[0].kind != END or not context.open_braces:
         # In DDSL, a dot follows only the instance of a port reference.
         ports = context.tables.language == "ddsl" and "DOT" in context.accepted_terminals()
         message = "a connection has the form `component.Port -> component.Port`" if ports else ""
-        return Repair(syntax_codes.UNEXPECTED, start, end, help=message)
+        return Repair(syntax_codes.UNEXPECTED, start, end, help=message, loses_names=True)
     opened = context.open_braces[-1]
     return Repair(
         syntax_codes.UNCLOSED_BLOCK,
@@ -78,6 +87,7 @@ def panic_mode(context: ErrorContext, item: Sequence[Token]) -> Repair:
         end,
         "`};` is missing before the end of the file",
         notes=(Note(context.source.span(opened.start, opened.end), "opened here"),),
+        loses_names=True,
     )
 
 
@@ -93,4 +103,5 @@ def trailing_text(first: Token, last: Token, harmless: bool) -> Repair:
         help="" if harmless else "an extra `}` may have ended the block too early",
         title="delete it" if harmless else "",
         edits=((first.start, last.end, ""),) if harmless else (),
+        loses_names=True,
     )

@@ -57,42 +57,53 @@ def all_repairs(
         return
     accepted = context.accepted_terminals()
     yield from statements.token_behind_semicolon(context, before, item, keep)
+    yield from statements.token_before_semicolon(context, before, item, keep)
     yield from bridge_mistakes(context, accepted)
+    if not item and not context.lookahead[0].kind.endswith(("ID", "_TYPE")):
+        yield from whole.swapped_tokens(context, item, keep)
+        yield from whole.missing_keyword(context, before)
     yield from list_mistakes(context, accepted, item, keep)
     yield from whole.doubled_token(context, item, keep)
+    yield from whole.name_behind_parenthesis(context, item, keep)
     yield from whole.doubled_sign(context, accepted)
     yield from signs.missing_semicolon(context)
     yield from signs.commented_semicolon(context)
     yield from signs.earlier_semicolon(context, item, keep)
     yield from operands.missing_operand_before_keyword(context, item, keep)
     yield from signs.arrow(context, accepted)
+    yield from operands.missing_type(context, item, accepted)
     yield from words.quoted_identifier(context, accepted)
     yield from words.interface_file_suffix(context)
     yield from words.keyword(context, accepted)
+    if context.lookahead[0].kind in context.tables.keyword_terminals and "ID" not in accepted:
+        yield from operands.missing_operand(context, accepted)
     yield from words.unquoted_string(context, accepted)
     yield from words.open_bracket(context, accepted)
     yield from words.type_first(context, accepted)
     yield from words.invalid_name(context, accepted)
-    yield from operands.missing_type(context, item, accepted)
     yield from operands.missing_operand(context, accepted)
     yield from words.foreign_modifier(context, item, keep)
     yield from misspelled_earlier_keyword(context, item, keep)
     yield from _block(context, [], 0)
     yield from _at_statement_start(context, item, keep)
     yield from signs.wrong_bracket(context, accepted)
-    yield from whole.missing_first_keyword(context, item, keep)
+    yield from whole.missing_first_keyword(context, before, item, keep)
     # Missing punctuation is more likely than a surplus identifier, and loses no text.
     if signs.IDENTIFIER.fullmatch(context.lookahead[0].text):
+        if any(token.text == "," for token in context.lookahead[1:2]):
+            yield from whole.swapped_tokens(context, item, keep)
         yield from whole.missing_keyword_between_names(context)
+        yield from signs.earlier_punctuation(context, item, keep)
         yield from signs.missing_punctuation(context, accepted)
         yield from whole.swapped_tokens(context, item, keep)
         yield from signs.surplus_token(context)
     else:
+        yield from signs.earlier_punctuation(context, item, keep)
         yield from whole.swapped_tokens(context, item, keep)
         yield from signs.surplus_token(context)
         yield from signs.wrong_punctuation(context, accepted)
         yield from signs.missing_punctuation(context, accepted)
-    yield from whole.missing_keyword(context)
+    yield from whole.missing_keyword(context, before)
 
 
 def _at_statement_start(
@@ -113,11 +124,14 @@ def _at_statement_start(
 def _block(context: ErrorContext, item: Sequence[Token], keep: int) -> Iterator[Repair]:
     """A block was not closed before a statement that is not allowed in it."""
     token, (start, end) = context.lookahead[0], context.error_range()
-    if token.kind not in context.tables.keyword_terminals and token.kind != END:
+    is_substates = context.tables.language == "smdsl" and token.text == ":"
+    words = context.tables.keyword_terminals
+    if token.kind not in words and token.kind != END and not is_substates:
         return
     ends = tuple(Token(kind, "", start, start) for kind in _CLOSED)
     for depth, opened in enumerate(reversed(context.open_braces), start=1):
-        yield Repair(
+        lone = next((at for at in reversed(context.lone_semicolons) if at > opened.start), -1)
+        repair = Repair(
             codes.UNCLOSED_BLOCK,
             start,
             end,
@@ -128,3 +142,12 @@ def _block(context: ErrorContext, item: Sequence[Token], keep: int) -> Iterator[
             replacement=ends * depth + tuple(item),
             keep=keep,
         )
+        if depth == 1 and lone >= 0:
+            repair = repair.replace(
+                start=lone,
+                end=lone + 1,
+                message="`}` is missing before `;`",
+                edits=((lone, lone, "}"),),
+                since=lone,
+            )
+        yield repair

@@ -23,14 +23,19 @@ _NOUNS = {"ID": "a name", "STRING": 'a "string"', "NUMBER": "a number"}
 
 _STATEMENT_ENDS = ("_SEMI", "LBRACE", "RBRACE")
 
-_DECLARING = frozenset(
-    (
-        *("module", "struct", "exception", "enum", "interface", ">"),
-        *("import", "component", "host", "program", "device", "extern", "group", "as"),
-        *("states", "initial_state", "end_state"),
-    )
-)
-"""Words before the name of a declaration, in lower case."""
+_DECLARING = {
+    "idsl": frozenset(("import", "module", "struct", "exception", "enum", "interface", ">")),
+    "cdsl": frozenset(("import",)),
+    "bdsl": frozenset(("import", "input", "hub", "function", "service")),
+    "ddsl": frozenset(
+        (
+            *("import", "component", "host", "program", "device", "extern", "group", "labels"),
+            *("export", "as"),
+        )
+    ),
+    "smdsl": frozenset(("states", "initial_state", "end_state")),
+}
+"""Language to the words, in lower case, before the name of a declaration that is used elsewhere."""
 
 
 def missing_operand(context: ErrorContext, accepted: Sequence[str]) -> Iterator[Repair]:
@@ -85,15 +90,16 @@ def _missing(
                 *context.lookahead[:back],
             ),
             keep=keep,
-            declares=declares_name(before or (before_it,)),
+            declares=declares_name(context, before or (before_it,)),
+            loses_names=True,
         )
 
 
-def declares_name(before: Sequence[Token]) -> bool:
+def declares_name(context: ErrorContext, before: Sequence[Token]) -> bool:
     """Whether a name behind these tokens of a statement is that of a declaration."""
-    return bool(before) and not _DECLARING.isdisjoint(
-        (before[0].text.lower(), before[-1].text.lower())
-    )
+    words = _DECLARING.get(context.tables.language, frozenset())
+    ends = (before[0].text.lower(), before[-1].text.lower()) if before else ()
+    return not words.isdisjoint(ends)
 
 
 def missing_type(

@@ -12,7 +12,7 @@ from robocomp_dsl.syntax.codes import legacy as legacy_codes
 from robocomp_dsl.syntax.codes import syntax as syntax_codes
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
-from robocomp_dsl.syntax.recovery.error_context import ErrorContext, quote_token
+from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair
 
 IDENTIFIER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
@@ -21,6 +21,9 @@ _OFTEN_MISSING = (",", ")", "(", "{", ">", "<", ":", "->", "=>", ".", "=")
 _ARROWS = ("->", "=>")
 _ANY_ARROW = re.compile(r"[-=]+[ \t]*>+|<[-=]+|[→⇒]")
 _CLOSING = {")": "(", "]": "[", ">": "<"}
+_BACK = 3
+"""A character is missing at most this many tokens before the unexpected one."""
+
 _HIDDEN = re.compile(r"[ \t]*//[^\n]*?([)}\]>]*;)[ \t]*$", re.MULTILINE)
 
 
@@ -92,7 +95,9 @@ def _accepted_punctuation(context: ErrorContext, accepted: list[str]) -> list[tu
     """Terminal and text of the accepted punctuation, often missing ones first."""
     texts = {context.tables.terminal_texts.get(kind, ""): kind for kind in accepted}
     optional = "_SEMI" in accepted
-    often = (*_OFTEN_MISSING, "}") if context.lookahead[0].kind == "_SEMI" else _OFTEN_MISSING
+    ends = context.lookahead[0].kind == "_SEMI"
+    in_list = context.states[-1] not in context.tables.item_states
+    often = (*_OFTEN_MISSING, "}") if ends or in_list else _OFTEN_MISSING
     return [(texts[t], t) for t in often if t in texts and not (t == "=" and optional)]
 
 
@@ -198,3 +203,35 @@ def missing_punctuation(context: ErrorContext, accepted: list[str]) -> Iterator[
             # In `a b c` another one is missing after the next identifier.
             required=1 if text == "," and IDENTIFIER.fullmatch(context.lookahead[0].text) else 3,
         )
+
+
+def _closes_list(context: ErrorContext) -> bool:
+    """Whether a `}` follows before the end of the statement."""
+    kinds = (token.kind for token in context.lookahead)
+    return next((kind for kind in kinds if kind in ("RBRACE", "_SEMI", END)), END) == "RBRACE"
+
+
+def earlier_punctuation(
+    context: ErrorContext, item: Sequence[Token], keep: int
+) -> Iterator[Repair]:
+    """`law pose, fixed} pose;`: a punctuation character is missing before the last tokens."""
+    for index in range(len(item) - 1, max(len(item) - _BACK, 0), -1):
+        states = context.states_after(keep, item[:index])
+        if states is None:
+            continue
+        there = context.replace(states=states, previous=item[index - 1], lookahead=item[index:])
+        at = item[index - 1].end
+        for kind, text in _accepted_punctuation(there, there.accepted_terminals()):
+            if text in "})>" or (text == "{" and not _closes_list(context)):
+                continue
+            yield Repair(
+                syntax_codes.MISSING_PUNCTUATION,
+                at,
+                at,
+                f"`{text}` is missing after {quote_token(item[index - 1])}",
+                title=f"add `{text}`",
+                edits=((at, at, text),),
+                replacement=(*item[:index], Token(kind, text, at, at), *item[index:]),
+                keep=keep,
+                required=WINDOW,
+            )

@@ -49,15 +49,24 @@ def token_behind_semicolon(
         keep=keep if item else 0,
         required=1,
         since=before[0].start,
-        declares=declares_name(before[:-1]),
+        declares=declares_name(context, before[:-1]),
     )
 
 
-def token_before_semicolon(item: Sequence[Token], keep: int) -> Iterator[Repair]:
-    """`speed float 1 turn; float 2;`: the last token of `item` begins the next statement."""
-    if len(item) < 3 or item[-2].kind != "ID":
+def token_before_semicolon(
+    context: ErrorContext, before: Sequence[Token], item: Sequence[Token], keep: int
+) -> Iterator[Repair]:
+    """`speed float 1 turn ; float 2;`: the last token of the statement `before` begins the next.
+
+    Only if a blank or a line break is between the two, as it was behind the `;`.
+    """
+    if item or len(before) < 3 or before[-1].kind != "_SEMI" or before[-2].kind != "ID":
         return
-    token, semicolon = item[-2:]
+    token, semicolon = before[-2:]
+    if token.end == semicolon.start or token.text.lower() in ("true", "false"):
+        return
+    if context.states_after(keep, (*before[:-2], semicolon)) is None:
+        return
     yield Repair(
         codes.UNEXPECTED,
         token.start,
@@ -65,14 +74,10 @@ def token_before_semicolon(item: Sequence[Token], keep: int) -> Iterator[Repair]
         f"{quote_token(token)} and {quote_token(semicolon)} are in the wrong order",
         title=f"write {quote_token(semicolon)} before {quote_token(token)}",
         edits=(
-            (item[-3].end, item[-3].end, semicolon.text),
+            (before[-3].end, before[-3].end, semicolon.text),
             (semicolon.start, semicolon.end, ""),
         ),
-        replacement=(
-            *item[:-2],
-            Token("_SEMI", ";", token.start, token.start),
-            Token("ID", token.text, token.start, token.end),
-        ),
-        keep=keep,
+        replacement=(Token("ID", token.text, semicolon.start, semicolon.end),),
         required=WINDOW,
+        since=before[0].start,
     )
