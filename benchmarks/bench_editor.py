@@ -60,9 +60,9 @@ async def _measure() -> list[dict[str, Any]]:
             uri = Path(folder, name).as_uri()
             for number in range(WARM_UP):
                 await _change(client, arrived, uri, texts[name], number)
-            begin, rounds = _processor(client), range(WARM_UP, WARM_UP + ROUNDS)
+            begin, rounds = processor_time(client), range(WARM_UP, WARM_UP + ROUNDS)
             took = [await _change(client, arrived, uri, texts[name], n) for n in rounds]
-            used = (_processor(client) - begin) / ROUNDS
+            used = (processor_time(client) - begin) / ROUNDS
             figures += _figures(f"change to findings, {lines} lines", took, goal)
             name = f"change, {lines} lines, processor time of the server"
             figures.append({"name": name, "value": used, "unit": "ms"})
@@ -97,7 +97,7 @@ def _figures(name: str, took: list[float], goal: float) -> list[dict[str, Any]]:
     ]
 
 
-def _processor(client: LanguageClient) -> float:
+def processor_time(client: LanguageClient) -> float:
     """Milliseconds that the server has computed, which a busy machine does not change."""
     process: Any = client._server
     fields = (

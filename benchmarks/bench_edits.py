@@ -2,8 +2,9 @@
 
 Each edit goes through the functions that handle `textDocument/didChange` and through the scheduler
 of the checks, until the findings are published; then it is undone. Two rows a kind: the edit, and
-the edit undone. The times are processor times, which a busy machine does not change; `bench_editor`
-measures a real server process through the protocol.
+the edit undone. The times are processor times, which a busy machine changes little. Some kinds are
+repeated with a real server process, through the protocol: the time on the clock, and the processor
+time of the server, which includes reading and writing messages.
 
 `python -m benchmarks.bench_edits operations.idsl …` prints the figures of some files.
 """
@@ -21,17 +22,22 @@ from statistics import median, quantiles
 from typing import Any
 
 from lsprotocol import types as lsp
+from pygls.lsp.client import LanguageClient
 
+from benchmarks.bench_editor import SERVER, processor_time
 from benchmarks.edits import KINDS, TextEdit
 from benchmarks.large_files import write_large_files
 from robocomp_dsl.language_server.documents import synchronize
 from robocomp_dsl.language_server.documents.diagnostics_scheduler import DiagnosticsScheduler
+from robocomp_dsl.language_server.positions import PositionCodec
 from robocomp_dsl.language_server.server import GC_THRESHOLDS
 from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.source import Source
 
 PLACES = 20
 """Places in the file, from its first to its last line."""
+PROTOCOL_FILES = ("structs.idsl", "operations.idsl")
+PROTOCOL_KINDS = ("letter in a name", "`;` deleted", "stray `}`", "50 lines pasted")
 GOAL = 25
 """Milliseconds, for the 95th percentile of each kind."""
 
@@ -58,12 +64,8 @@ class Editor:
 
     async def change(self, edit: TextEdit) -> float:
         """Apply an edit; milliseconds of the processor until its findings are published."""
-        source = Source(self._path, self.text)
-        start, end = (self._session.positions.position_at(source, o) for o in edit[:2])
-        change = lsp.TextDocumentContentChangePartial(lsp.Range(start, end), edit.text)
         self._version += 1
-        document = lsp.VersionedTextDocumentIdentifier(self._version, self._path.as_uri())
-        params = lsp.DidChangeTextDocumentParams(document, [change])
+        params = _change_params(self._path, self.text, edit, self._version)
         self.text = edit.apply(self.text)
         self._published.clear()
         begin = time.process_time()
@@ -102,9 +104,65 @@ def measure(
                 yield name, asyncio.run(_measure(path, text, kinds))
 
 
+async def _measure_protocol(names: Collection[str]) -> list[dict[str, Any]]:
+    """Time on the clock and processor time of a real server."""
+    client = LanguageClient("bench", "1")
+    arrived: asyncio.Queue[tuple[str, int | None]] = asyncio.Queue()
+
+    @client.feature(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
+    def _(params: lsp.PublishDiagnosticsParams) -> None:
+        arrived.put_nowait((params.uri, params.version))
+
+    await client.start_io(*SERVER)
+    await client.initialize_async(lsp.InitializeParams(lsp.ClientCapabilities()))
+    client.initialized(lsp.InitializedParams())
+    figures: list[dict[str, Any]] = []
+    with tempfile.TemporaryDirectory() as folder:
+        for name, (path, text) in write_large_files(Path(folder)).items():
+            if name not in (names or PROTOCOL_FILES):
+                continue
+            uri = path.as_uri()
+            item = lsp.TextDocumentItem(uri, path.suffix[1:], 0, text)
+            client.text_document_did_open(lsp.DidOpenTextDocumentParams(item))
+            await arrived.get()
+            used, took = processor_time(client), list[float]()
+            for kind in PROTOCOL_KINDS:
+                for edit in edits_of(kind, text):
+                    for step, before in ((edit, text), (edit.inverse(text), edit.apply(text))):
+                        params = _change_params(path, before, step, len(took) + 1)
+                        begin = time.perf_counter()
+                        client.text_document_did_change(params)
+                        while await arrived.get() != (uri, len(took) + 1):
+                            pass
+                        took.append((time.perf_counter() - begin) * 1000)
+            used = (processor_time(client) - used) / len(took)
+            label = f"{name}, through the protocol"
+            p95 = quantiles(took, n=20, method="inclusive")[-1]
+            figures += [
+                {"name": f"{label}, median", "value": median(took), "unit": "ms"},
+                {"name": f"{label}, p95", "value": p95, "unit": "ms", "goal": GOAL},
+                {"name": f"{label}, processor time of the server", "value": used, "unit": "ms"},
+            ]
+        await client.shutdown_async(None)
+        client.exit(None)
+        await client.stop()
+    return figures
+
+
+def _change_params(
+    path: Path, text: str, edit: TextEdit, version: int
+) -> lsp.DidChangeTextDocumentParams:
+    """The notification of an edit of `text`."""
+    source, positions = Source(path, text), PositionCodec()
+    start, end = (positions.position_at(source, offset) for offset in edit[:2])
+    change = lsp.TextDocumentContentChangePartial(lsp.Range(start, end), edit.text)
+    document = lsp.VersionedTextDocumentIdentifier(version, path.as_uri())
+    return lsp.DidChangeTextDocumentParams(document, [change])
+
+
 def run(names: Collection[str] = ()) -> list[dict[str, Any]]:
     """The 95th percentile of each kind of edit in ms, and the median of all edits of a file."""
-    figures: list[dict[str, Any]] = []
+    figures = asyncio.run(_measure_protocol(names))
     for name, took in measure(names):
         every = [milliseconds for times in took.values() for milliseconds in times]
         figures.append({"name": f"{name}, all edits, median", "value": median(every), "unit": "ms"})

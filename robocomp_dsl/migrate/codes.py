@@ -82,9 +82,9 @@ LIST_IN_STRING = Code(
     Severity.NOTE,
     "a list in a string stays a string",
     """The value looks like a list, `1,2,3`, which the old code splits itself; so it became a
-string. For a typed list, write a list of groups in the PDSL and the YAML:
+string. For a typed list, write a list in the PDSL and the YAML:
 
-    joints[] { value float; };          joints: [{value: 1}, {value: 2}]""",
+    joints[] float;          joints: [1, 2]""",
 )
 
 MISSING_KEY = Code(

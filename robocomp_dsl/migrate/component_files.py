@@ -12,11 +12,17 @@ from dataclasses import dataclass
 from enum import Enum, auto
 from pathlib import Path, PurePosixPath
 
+from robocomp_dsl.regular_file import open_regular
+from robocomp_dsl.source import MAX_BYTES
+
 SKIPPED_FOLDERS = frozenset(
     ("__pycache__", "build", "bin", "generated", "CMakeFiles", "node_modules")
 )
 """Folders without hand-written files."""
 MAX_FILES = 5_000
+GENERIC_FORM = "ui_mainUI"
+"""The module of the main window, which RoboComp's `genericworker` imported."""
+_RUNS_WORKER = re.compile(rb"\bspecificworker\b", re.IGNORECASE)
 
 
 class FileCategory(Enum):
@@ -48,7 +54,8 @@ _BUILD = {".cmake", ".pro", ".ice", ".o", ".so", ".a", ".pyc"}
 CONFIG_SUFFIXES = {"", ".conf", ".config", ".cfg", ".toml"}
 _GENERATED = re.compile(
     r"""(generic(worker|monitor)|specificmonitor|main|commonbehavior|interfaces)\.\w+
-      | \w+I\.(cpp|h|py) | ui_\w+\.(h|py) | CMakeLists\w*\.txt | (GNU)?Makefile | [Dd]oxy[Ff]ile
+      | [a-z0-9_]+I\.(cpp|h|py) | ui_\w+\.(h|py) | CMakeLists\w*\.txt | (GNU)?Makefile
+      | [Dd]oxy[Ff]ile
       | (run|forcerun)\.sh""",
     re.VERBOSE,
 )
@@ -73,7 +80,39 @@ def list_files(folder: Path) -> Iterator[ComponentFile]:
                 yield ComponentFile(path, relative, FileCategory.TOO_MANY)
                 return
             usual = not path.is_symlink() and path.is_file()
-            yield ComponentFile(path, relative, _classify(relative) if usual else FileCategory.LINK)
+            category = _classify(relative) if usual else FileCategory.LINK
+            if category is FileCategory.REPLACED and _is_own_module(path, relative):
+                category = FileCategory.MODULE
+            yield ComponentFile(path, relative, category)
+
+
+def _is_own_module(path: Path, relative: PurePosixPath) -> bool:
+    """Whether a file in `src/` only has a name as RoboComp's generator chooses them.
+
+    RoboComp generated no folders below `src/`, and `ui_x.py` from a form `x.ui`.
+    """
+    if relative.parts[0] != "src" or relative.suffix != ".py":
+        return False
+    is_form = relative.stem.startswith("ui_")
+    if len(relative.parts) > 2:
+        return not is_form or not _has_form(path)
+    return is_form and relative.stem != GENERIC_FORM and not _has_form(path)
+
+
+def _has_form(path: Path) -> bool:
+    """Whether the form of `ui_x.py` is beside it."""
+    return path.with_name(f"{path.stem.removeprefix('ui_')}.ui").exists()
+
+
+def is_main_script(file: ComponentFile, component: str) -> bool:
+    """Whether a file is the old main program: it has the component's name, and runs the worker."""
+    if file.relative.parts != ("src", f"{component}.py"):
+        return False
+    try:
+        with open_regular(file.path) as stream:
+            return bool(_RUNS_WORKER.search(stream.read(MAX_BYTES)))
+    except OSError:
+        return True
 
 
 def _classify(relative: PurePosixPath) -> FileCategory:

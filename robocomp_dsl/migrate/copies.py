@@ -5,13 +5,13 @@ In: the files of the folder. Out: copies in the new component, findings about th
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
-from pathlib import PurePosixPath
 
 from robocomp_dsl.diagnostics import Code, Report
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.migrate import codes
-from robocomp_dsl.migrate.component_files import ComponentFile, FileCategory
+from robocomp_dsl.migrate.component_files import ComponentFile, FileCategory, is_main_script
 from robocomp_dsl.migrate.migrated_component import MigratedComponent
 from robocomp_dsl.regular_file import open_regular
 from robocomp_dsl.source import MAX_BYTES, Source
@@ -35,20 +35,39 @@ def is_generated_file(path: str) -> bool:
 def copy_all(moved: MigratedComponent, files: Sequence[ComponentFile], report: Report) -> None:
     """Copy the other files, and report files without a replacement."""
     room = 16 * MAX_BYTES
+    modules = [f for f in files if f.category in (FileCategory.WORKER, FileCategory.MODULE)]
     for file in files:
         rejection = _rejection(file, moved)
         if rejection is not None:
             report.add(rejection[0], Source(file.path, "").file_span, rejection[1])
-        elif file.category in (FileCategory.COPY, FileCategory.WINDOW):
+        elif file.category in (FileCategory.COPY, FileCategory.WINDOW) or (
+            file.category is FileCategory.CONFIG and is_read_by_code(file, modules)
+        ):
             room -= _copy(moved, file, room, report)
+
+
+def is_read_by_code(config: ComponentFile, modules: Sequence[ComponentFile]) -> bool:
+    """Whether a module names a configuration, as `etc/config` or `join("etc", "config")`."""
+    name = re.escape(config.relative.name)
+    named = re.compile(rf"""etc(?:/|['"][\s)]*[,/]\s*['"])/?{name}['"]""".encode())
+    return any(named.search(_bytes_of(module)) for module in modules)
+
+
+def _bytes_of(file: ComponentFile) -> bytes:
+    """The bytes of a file; none if it cannot be read, which is reported elsewhere."""
+    try:
+        with open_regular(file.path) as stream:
+            return stream.read(MAX_BYTES)
+    except OSError:
+        return b""
 
 
 def _rejection(file: ComponentFile, moved: MigratedComponent) -> tuple[Code, str] | None:
     """The finding about a file that is not copied; None for a file to copy."""
     if file.category is FileCategory.WINDOW and moved.has_window:
         return None
-    script = file.relative == PurePosixPath("src", f"{moved.name}.py")
-    if file.category is FileCategory.REPLACED or (script and file.category is FileCategory.MODULE):
+    script = file.category is FileCategory.MODULE and is_main_script(file, moved.name)
+    if file.category is FileCategory.REPLACED or script:
         return codes.GENERATED_FILE_DROPPED, f"`{file.relative}` has no replacement"
     spare = file.category is FileCategory.DESCRIPTION and file.relative.suffix != ".idsl"
     if spare and file.relative.name != moved.description:

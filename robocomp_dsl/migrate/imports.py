@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.regeneration.user_module import UserModule
 from robocomp_dsl.migrate import codes
+from robocomp_dsl.migrate.import_nodes import absolute_name, relative_imports
 from robocomp_dsl.migrate.legacy import STAND_INS
 from robocomp_dsl.migrate.qt_imports import (
     QT,
@@ -43,6 +44,9 @@ class LegacyNames:
     `states` are the suffixes of the state methods; None without a state machine. `servants` are
     modules that RoboComp generated, and that the runtime replaces. `has_window`: the component
     runs with Qt, so imports of Qt become imports of PySide6. `local` are the component's modules.
+
+    Of the module that is adapted: `folders` are those below `src/`, `is_worker` whether it is the
+    worker, which leaves `src/`.
     """
 
     legacy: str
@@ -53,6 +57,8 @@ class LegacyNames:
     servants: frozenset[str] = frozenset()
     has_window: bool = False
     local: frozenset[str] = frozenset()
+    folders: tuple[str, ...] = ()
+    is_worker: bool = False
 
 
 def _used_attributes(tree: ast.Module) -> dict[str, set[str]]:
@@ -78,6 +84,7 @@ def _add_call(function: ast.expr, used: dict[str, set[str]]) -> None:
 def adapt_imports(user: UserModule, names: LegacyNames, report: Report) -> Iterator[TextEdit]:
     """The edits of all statements that import names of RoboComp, Ice or Qt."""
     used = _used_attributes(user.tree)
+    yield from _relative_import_edits(user, names, report)
     for node in ast.walk(user.tree):
         if isinstance(node, ast.Import):
             new = _plain_import(node, names, used)
@@ -167,6 +174,27 @@ def _from_import(node: ast.ImportFrom, names: LegacyNames, used: dict[str, set[s
         listed = ", ".join(a.name + (f" as {a.asname}" if a.asname else "") for a in supported)
         return f"from {names.legacy} import {listed}" if supported else "pass"
     return None
+
+
+def _relative_import_edits(
+    user: UserModule, names: LegacyNames, report: Report
+) -> Iterator[TextEdit]:
+    for node in relative_imports(user.tree):
+        if (new := _relative_import(node, names)) is not None:
+            span = span_of(user, node)
+            report.add(codes.IMPORT_ADAPTED, span, f"`{span.text:.80}` became `{new:.80}`")
+            yield span.start, span.end, new
+
+
+def _relative_import(node: ast.ImportFrom, names: LegacyNames) -> str | None:
+    """The new text of `from .a import b` in a module of the package `src`."""
+    module = absolute_name(node, names.folders)
+    listed = ", ".join(a.name + (f" as {a.asname}" if a.asname else "") for a in node.names)
+    if module in GENERATED_MODULES:
+        return f"from {names.legacy} import {listed}"
+    if module is None or not names.is_worker:
+        return None
+    return f"from {'.'.join(filter(None, ('src', module)))} import {listed}"
 
 
 def _unsupported_star_import(

@@ -25,7 +25,6 @@ from robocomp_dsl.migrate.values import (
 from robocomp_dsl.model.parameter import Kind
 from robocomp_dsl.model.types import Literal
 
-ITEM = "value"
 """The parameter of each group that replaces an item of a plain list."""
 
 _NAME = re.compile(r"(?!(?:string|int|float|bool)$)[A-Za-z_][A-Za-z0-9_]*", re.IGNORECASE)
@@ -54,11 +53,11 @@ class InferredGroup:
 
 @dataclass(frozen=True, slots=True)
 class ListParameter:
-    """A list of groups with a single `value` each, from a list of plain values."""
+    """A list of plain values of one kind."""
 
     name: str
     old_path: tuple[str, ...]
-    item: ScalarParameter
+    kind: Kind
     doc: str = ""
 
 
@@ -180,9 +179,7 @@ class _TreeBuilder:
                 self.report.add(codes.CONVERTED_TO_STRING, entry.span, message)
         entry = next(iter(occurrences.values()))
         doc = next((e.doc for e in occurrences.values() if e.doc), "")
-        return ListParameter(
-            path[-1], entry.path, ScalarParameter(ITEM, entry.path, kind, None), doc
-        )
+        return ListParameter(path[-1], entry.path, kind, doc)
 
     def report_string(self, entry: ConfigEntry, kind: Kind, own: Kind) -> None:
         """Report a value that became a string."""

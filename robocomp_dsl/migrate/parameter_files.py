@@ -9,7 +9,6 @@ from collections.abc import Iterator
 
 from robocomp_dsl.generate import literals
 from robocomp_dsl.migrate.infer import (
-    ITEM,
     InferredGroup,
     ListParameter,
     ParameterTree,
@@ -20,6 +19,8 @@ from robocomp_dsl.model.parameter import Kind
 from robocomp_dsl.model.types import Literal
 
 STEP = "    "
+WIDTH = 100
+"""Longer lists have a line for each value."""
 _KIND_DESCRIPTIONS = {
     Kind.STRING: "a string",
     Kind.INT: "a whole number",
@@ -44,8 +45,7 @@ def _pdsl(tree: ParameterTree, indent: str) -> Iterator[str]:
         if node.doc.strip():
             yield from _doc_rows(node.doc, indent)
         if isinstance(node, ListParameter):
-            yield f"{indent}{node.name}[]"
-            yield from _block([f"{indent}{STEP}{ITEM} {node.item.kind.value};"], indent)
+            yield f"{indent}{node.name}[] {node.kind.value};"
         else:
             default = "" if node.default is None else f" {_pdsl_value(node.default)}"
             yield f"{indent}{node.name} {node.kind.value}{default};"
@@ -114,12 +114,14 @@ def _yaml(
 def _yaml_list(
     parameter: ListParameter, values: Literal | list[Literal] | None, key: str, indent: str
 ) -> Iterator[str]:
-    yield f"{indent}# a list; each with {_KIND_DESCRIPTIONS[parameter.item.kind]}"
-    if not isinstance(values, list) or not values:
-        yield f"{key} []"
+    yield f"{indent}# a list; each is {_KIND_DESCRIPTIONS[parameter.kind]}"
+    elements = values if isinstance(values, list) else []
+    line = f"{key} {literals.yaml_value(tuple(elements))}"
+    if len(line) <= WIDTH:
+        yield line
         return
     yield key
-    yield from (f"{indent}  - {ITEM}: {literals.yaml_value(value)}" for value in values)
+    yield from (f"{indent}  - {literals.yaml_value(value)}" for value in elements)
 
 
 def walk_parameters(

@@ -15,12 +15,16 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.regeneration.user_module import UserModule
 from robocomp_dsl.migrate import codes
-from robocomp_dsl.migrate.component_files import ComponentFile, FileCategory
+from robocomp_dsl.migrate.component_files import ComponentFile, FileCategory, is_main_script
+from robocomp_dsl.migrate.import_nodes import relative_imports
 from robocomp_dsl.migrate.infer import InferredParameters
 from robocomp_dsl.migrate.legacy import interface_names, legacy_text
 from robocomp_dsl.migrate.python_sources import read_modules
-from robocomp_dsl.migrate.review import bare_names, review_modules
+from robocomp_dsl.migrate.review import bare_names, reachable, review_modules
+from robocomp_dsl.migrate.review_fields import review_fields
+from robocomp_dsl.migrate.review_names import review_names
 from robocomp_dsl.migrate.review_ports import review_ports
+from robocomp_dsl.migrate.review_versions import review_versions
 from robocomp_dsl.migrate.worker import adapt_module, names_for, period_of
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.regular_file import open_regular
@@ -53,7 +57,7 @@ def migrate_python_files(
     module_files = [
         file
         for file in files
-        if file.category is FileCategory.MODULE and not _is_script(file, component)
+        if file.category is FileCategory.MODULE and not is_main_script(file, component.name)
     ]
     everything = [*([worker] if worker else []), *module_files]
     modules = read_modules([file.path for file in everything], report)
@@ -77,7 +81,7 @@ def migrate_python_files(
         first = _first_line(
             legacy, readable, in_source=in_source and len(worker.relative.parts) > 1
         )
-        text = adapt_module(user, names, report, first)
+        text = adapt_module(user, replace(names, is_worker=True), report, first)
         yield OutputFile(WORKER, text, encoding=user.encoding), str(worker.relative)
     if user or module_files:
         bare = bare_names(readable, interface_names(component))
@@ -89,14 +93,19 @@ def migrate_python_files(
         if module is None:
             yield _copy_bytes(file, place)
         else:
-            text = adapt_module(module, names, report)
+            folders = file.relative.relative_to(SOURCE).parent.parts
+            text = adapt_module(module, replace(names, folders=folders), report)
             yield OutputFile(place, text, encoding=module.encoding), str(file.relative)
 
 
 def _depends_on_place(module: UserModule) -> bool:
-    """Whether a module names the folder `src/`, or its own path."""
-    return bool(_FROM_SRC.search(module.source.text)) or any(
-        isinstance(node, ast.Name) and node.id == "__file__" for node in ast.walk(module.tree)
+    """Whether a module names the folder `src/`, or its own path, or is part of a package."""
+    return (
+        bool(_FROM_SRC.search(module.source.text))
+        or any(
+            isinstance(node, ast.Name) and node.id == "__file__" for node in ast.walk(module.tree)
+        )
+        or (module.source.path.parent.name == SOURCE and any(relative_imports(module.tree)))
     )
 
 
@@ -129,18 +138,19 @@ def _review(
     if component.gui:
         local_names |= {f"ui_{path.stem}" for path in paths if path.suffix == ".ui"}
     review_ports(user, component, report)
+    readable = {name: module for name, module in by_name.items() if module}
+    imported = list(reachable(user, readable))
+    review_fields(imported, component, report)
+    review_versions(imported, report)
+    servants = names_for(component, "").servants
+    review_names(imported, interface_names(component), servants, report)
     review_modules(
         user,
-        {name: module for name, module in by_name.items() if module},
+        readable,
         interface_names(component),
-        frozenset(local_names | names_for(component, "").servants),
+        frozenset(local_names | servants),
         report,
     )
-
-
-def _is_script(file: ComponentFile, component: Component) -> bool:
-    """Whether a file is the old main program, which is named like the component."""
-    return file.relative.parts == (SOURCE, f"{component.name}.py")
 
 
 def _report_missing_worker(

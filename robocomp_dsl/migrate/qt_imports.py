@@ -8,6 +8,11 @@ modules in which older versions of Qt had it.
 from __future__ import annotations
 
 import ast
+import importlib.util
+import re
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
 
 QT = ("PySide", "PySide2", "PySide6", "PyQt4", "PyQt5", "PyQt6")
 """Packages of Qt for Python."""
@@ -21,6 +26,8 @@ _REMOVED = """QDesktopWidget QGLWidget QMatrix QRegExp QRegExpValidator QSignalM
 QStringList QTextCodec QVariant QWebView QFinalState QState QStateMachine"""
 REMOVED = frozenset(_REMOVED.split())
 """Classes that Qt 6 no longer has, or not in these modules."""
+_CLASS = re.compile(r"Q[A-Z]\w+")
+_DECLARED_CLASS = re.compile(r"^class (\w+)", re.MULTILINE)
 
 
 def is_qt(module: str) -> bool:
@@ -56,17 +63,41 @@ def missing_in_qt6(node: ast.Import | ast.ImportFrom, used: dict[str, set[str]])
     if isinstance(node, ast.Import):
         modules = [a.name.partition(".")[2] for a in node.names if is_qt(a.name)]
     elif (module := (node.module or "").partition(".")[2]) in PROVIDED:
-        gone = sorted(REMOVED.intersection(alias.name for alias in node.names))
+        gone = _gone({alias.name for alias in node.names})
         return f"`{gone[0]}`, which Qt 6 does not have" if gone else None
     else:
         modules = [module] if module else [a.name for a in node.names if a.name != "*"]
         for name in PROVIDED.intersection(modules):
-            if gone := sorted(REMOVED & {u.removesuffix("()") for u in used.get(name, ())}):
+            if gone := _gone({u.removesuffix("()") for u in used.get(name, ())}):
                 return f"`{name}.{gone[0]}`, which Qt 6 does not have"
     for module in modules:
         if module and module not in PROVIDED | ESSENTIAL:
             return f"`{module}`, which may be in PySide6-Addons (`pip install PySide6`)"
     return None
+
+
+def _gone(names: set[str]) -> list[str]:
+    """The classes that the modules of Qt 6 do not have."""
+    classes = _classes()
+    if not classes:  # PySide6 is not installed here
+        return sorted(REMOVED & names)
+    return sorted(name for name in names if _CLASS.fullmatch(name) and name not in classes)
+
+
+@cache
+def _classes() -> frozenset[str]:
+    """The classes of the installed PySide6, from its type stubs; empty without it."""
+    try:
+        found = importlib.util.find_spec("PySide6")
+    except (ImportError, ValueError):
+        return frozenset()
+    names: set[str] = set()
+    for folder in (found.submodule_search_locations or ()) if found else ():
+        for module in sorted(PROVIDED):
+            with suppress(OSError, UnicodeDecodeError):
+                stub = Path(folder, f"{module}.pyi").read_text("utf-8")
+                names |= set(_DECLARED_CLASS.findall(stub))
+    return frozenset(names)
 
 
 def _as(alias: ast.alias) -> str:

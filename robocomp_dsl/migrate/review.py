@@ -15,6 +15,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.regeneration.user_module import UserModule
 from robocomp_dsl.migrate import worker_codes
+from robocomp_dsl.migrate.import_nodes import optional_nodes
 from robocomp_dsl.migrate.imports import (
     GENERATED_MODULES,
     INNER_MODEL_NAMES,
@@ -38,13 +39,29 @@ _DISTRIBUTIONS = {
     "yaml": "pyyaml",
 }
 """Distributions whose names differ from those of their modules."""
+_OLD_MODULES = {
+    "ConfigParser": "configparser",
+    "Queue": "queue",
+    "StringIO": "io",
+    "Tkinter": "tkinter",
+    "cPickle": "pickle",
+    "commands": "subprocess",
+    "cStringIO": "io",
+    "distutils": "setuptools",
+    "imp": "importlib",
+    "mutex": "threading.Lock",
+    "sets": "set",
+    "thread": "_thread",
+    "urllib2": "urllib.request",
+    "urlparse": "urllib.parse",
+}
+"""Modules that Python no longer has, and what replaces them."""
 _PROCESS = {
     ("signal", "signal"): "signal handlers can be set in the main thread only, which is not that of"
     " the worker: write `def finalize(self)` for what ends the component",
     ("sys", "argv"): "`sys.argv` had the path of the configuration; now it has the options of"
     " `main.py`, and `self.config_file` is the configuration",
 }
-_IMPORT_ERRORS = {"ImportError", "ModuleNotFoundError", "Exception", "BaseException", "Error"}
 
 
 def review_modules(
@@ -59,7 +76,7 @@ def review_modules(
     `modules` are those of the component by dotted name, `names` the names of each interface
     module, `local_names` the names of all modules and packages in the component's folder.
     """
-    for module in _reachable(worker, modules):
+    for module in reachable(worker, modules):
         _review_imports(module, names, local_names, report)
         _review_interface_names(module, names, report)
         _review_process(module, report)
@@ -77,7 +94,7 @@ def bare_names(modules: Sequence[UserModule], names: Mapping[str, frozenset[str]
     return used & set().union(*names.values()) if names else set()
 
 
-def _reachable(worker: UserModule, modules: Mapping[str, UserModule]) -> Iterator[UserModule]:
+def reachable(worker: UserModule, modules: Mapping[str, UserModule]) -> Iterator[UserModule]:
     """The worker and the modules of the component that it imports, directly or not."""
     pending, seen = [worker], {id(worker)}
     while pending:
@@ -109,7 +126,7 @@ def _review_imports(
     report: Report,
 ) -> None:
     """Report imports of modules that are neither in the folder nor installed."""
-    optional = set(_optional_nodes(module.tree))
+    optional = set(optional_nodes(module.tree))
     for node in ast.walk(module.tree):
         if node in optional or not isinstance(node, ast.Import | ast.ImportFrom):
             continue
@@ -126,30 +143,14 @@ def _review_imports(
             elif not _is_available(top, names, local_names):
                 message = f"`{top}` is not installed here; the component does not start without it"
                 fix = f"install it for the component: pip install {_DISTRIBUTIONS.get(top, top)}"
+                if top in _OLD_MODULES:
+                    fix = f"it is a module of Python 2; use `{_OLD_MODULES[top]}`"
                 report.add(worker_codes.MISSING_MODULE, span_of(module, node), message, help=fix)
 
 
 def _is_known_inner_model(node: ast.Import | ast.ImportFrom) -> bool:
     """Whether an import of RoboComp's `InnerModel` was replaced."""
     return isinstance(node, ast.Import) or INNER_MODEL_NAMES.issuperset(a.name for a in node.names)
-
-
-def _optional_nodes(tree: ast.Module) -> Iterator[ast.AST]:
-    """The nodes in `try` blocks that catch the error of an import."""
-    for node in ast.walk(tree):
-        if not isinstance(node, ast.Try):
-            continue
-        caught = {_caught_name(handler.type) for handler in node.handlers}
-        if caught & _IMPORT_ERRORS or "" in caught:
-            for statement in node.body:
-                yield from ast.walk(statement)
-
-
-def _caught_name(expression: ast.expr | None) -> str:
-    """The last name of a caught type; empty for a bare `except`; the first of several."""
-    if isinstance(expression, ast.Tuple):
-        return _caught_name(expression.elts[0]) if expression.elts else ""
-    return ast.unparse(expression).rpartition(".")[2] if expression else ""
 
 
 def _is_available(
@@ -193,12 +194,28 @@ def _review_interface_names(
 
 
 def _review_process(module: UserModule, report: Report) -> None:
+    replaced = set(_replaced_handlers(module.tree))
     for node in ast.walk(module.tree):
         match node:
+            case _ if node in replaced:
+                continue
             case ast.Attribute(value=ast.Name(id=owner), attr=attribute):
                 reason = _PROCESS.get((owner, attribute))
                 if reason:
                     report.add(worker_codes.DIFFERENT_PROCESS, span_of(module, node), reason)
+
+
+def _replaced_handlers(tree: ast.Module) -> Iterator[ast.expr]:
+    """`signal.signal(signal.SIGINT, …)` at the margin: as in RoboComp `main` replaces it.
+
+    The module is loaded in the main thread, and before the main program sets its own handler.
+    """
+    for statement in tree.body:
+        match statement:
+            case ast.Expr(
+                value=ast.Call(func=function, args=[ast.Attribute(attr="SIGINT"), ast.Attribute()])
+            ):
+                yield function
 
 
 def _review_methods(user: UserModule, worker: ast.ClassDef, report: Report) -> None:

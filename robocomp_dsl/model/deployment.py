@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from ipaddress import ip_address
 from pathlib import Path
 
@@ -121,12 +122,16 @@ class Host(Record):
         """
         if self.ssh_port:
             return False
-        if self.address == THIS_MACHINE:
-            return True
-        try:
-            return ip_address(self.address).is_loopback
-        except ValueError:
-            return False
+        return self.address == THIS_MACHINE or _is_loopback(self.address)
+
+
+@lru_cache(maxsize=1000)
+def _is_loopback(address: str) -> bool:
+    """Whether a text is a loopback address."""
+    try:
+        return ip_address(address).is_loopback
+    except ValueError:
+        return False
 
 
 HERE = Host("", "127.0.0.1")

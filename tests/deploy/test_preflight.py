@@ -10,9 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.cli.rcdeploy.app import CheckedDeployment, check
+from robocomp_dsl.cli.rcdeploy.app import check
 from robocomp_dsl.cli.rcdeploy.main import normalise_arguments
 from robocomp_dsl.cli.rcdeploy.plan import as_text
+from robocomp_dsl.deploy.checked_deployment import CheckedDeployment
 from tests.deploy.generated_components import generate_components
 from tests.deploy.rcdeploy_process import rcdeploy
 

@@ -132,7 +132,7 @@ def test_check_accepts_middleware_of_component_interface_and_connection(project:
     app = project / "app.ddsl"
     connection = "    connect asker.Sum -> adder.Sum over pipe;\n};\n"
     app.write_text(app.read_text().rpartition("};")[0] + connection)
-    result = rcgen("check", "adder/adder.cdsl", "asker/asker.cdsl", "app.ddsl")
+    result = rcgen("check", "--static", "adder/adder.cdsl", "asker/asker.cdsl", "app.ddsl")
     assert result.returncode == 0, result.stdout + result.stderr
 
 

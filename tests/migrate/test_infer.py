@@ -162,7 +162,7 @@ def generated_class(parameters: InferredParameters, folder: Path) -> type[Loaded
 
 
 def flat(loaded: Loaded) -> dict[str, object]:
-    """The values by path; lists of groups become lists of their values."""
+    """The values by path; lists are values."""
     return dict(_flat(loaded, ""))
 
 
@@ -170,7 +170,7 @@ def _flat(group: Any, path: str) -> Any:
     for entry in type(group).SCHEMA:
         value = getattr(group, entry.attribute)
         if isinstance(value, list):
-            yield path + entry.name, [item.value for item in value]
+            yield path + entry.name, value
         elif hasattr(type(value), "SCHEMA"):
             yield from _flat(value, f"{path}{entry.name}.")
         else:
@@ -262,3 +262,16 @@ def test_infer_keeps_spelling_of_values(tmp_path: Path, written: str, texts: obj
     node = parameters.tree[0]
     assert isinstance(node, ScalarParameter)
     assert node.texts == texts
+
+
+def test_infer_writes_lists_of_values(tmp_path: Path) -> None:
+    file = tmp_path / "config.toml"
+    file.write_text(f"gains = [1, 2.5]\nlong = {list(range(100, 140))}\nnone = []\n")
+    config = read_config(file, Report())
+    assert config
+    parameters = infer([(config, config.entries)], Report())
+    pdsl = pdsl_text("moved", parameters.tree, "config.toml")
+    assert "    gains[] float;\n    long[] int;\n    none[] string;\n" in pdsl
+    yaml = yaml_text("moved", parameters.tree, parameters.values[0], "config.toml")
+    assert "# a list; each is a number\ngains: [1.0, 2.5]\n" in yaml
+    assert "long:\n  - 100\n  - 101\n" in yaml

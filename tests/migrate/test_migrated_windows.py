@@ -33,7 +33,7 @@ EYE_UI = """<?xml version="1.0" encoding="UTF-8"?>
 </ui>
 """
 EYE = """from PySide2.QtCore import QTimer
-from PySide2.QtWidgets import QApplication
+from PySide2.QtWidgets import QApplication, qApp
 from PySide2.QtGui import QImage, QPixmap
 from genericworker import *
 import interfaces as ifaces
@@ -41,6 +41,7 @@ import interfaces as ifaces
 class SpecificWorker(GenericWorker):
     def __init__(self, proxy_map, startup_check=False):
         super(SpecificWorker, self).__init__(proxy_map)
+        qApp.setApplicationVersion('1')
         QObject.connect(self.ui.horizontalSlider_pos, SIGNAL('valueChanged(int)'), self.slot_pos)
         self.ui.pushButton_center.clicked.connect(self.slot_center)
         self.battery_timer = QTimer()
@@ -201,6 +202,7 @@ def test_migrated_window_keeps_state_machine_and_second_form(rcgen, tmp_path: Pa
     [
         ("from PySide2.QtCharts import QtCharts", "`QtCharts`, which may be in PySide6-Addons"),
         ("from PyQt5.QtCore import QRegExp", "`QRegExp`, which Qt 6 does not have"),
+        ("from PySide.QtGui import QGLFormat", "`QGLFormat`, which Qt 6 does not have"),
         ("from PyQt5 import uic", "`uic`, which may be in PySide6-Addons"),
     ],
 )

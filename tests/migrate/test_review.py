@@ -38,6 +38,8 @@ def findings(text: str, helper: str = "", local: str = "helper") -> list[tuple[s
         ("import interfaces as i\nx = i.RoboCompBase.TState()\n", "RC896", 2),
         ("class SpecificWorker(G):\n    def restore(self): ...\n", "RC897", 2),
         ("import signal\nsignal.signal(2, f)\n", "RC899", 2),
+        ("import signal\nsignal.signal(signal.SIGTERM, signal.SIG_DFL)\n", "RC899", 2),
+        ("import signal\nif x: signal.signal(signal.SIGINT, f)\n", "RC899", 2),
         ("import sys\nx = sys.argv[1]\n", "RC899", 2),
     ],
 )
@@ -55,6 +57,7 @@ def test_review_modules_reports_line(text: str, code: str, line: int) -> None:
         "import RoboCompLaser\nx = RoboCompLaser.TData()\nfrom RoboCompLaser import *\n",
         "class SpecificWorker(G):\n    def compute(self): ...\n",
         "from src.helper import x\n",
+        "import signal\nsignal.signal(signal.SIGINT, signal.SIG_DFL)\n",
         "import librobocomp_innermodel\nfrom innermodel import InnerModel\n",
     ],
 )

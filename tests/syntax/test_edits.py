@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from robocomp_dsl.diagnostics import Diagnostic, Report
 from robocomp_dsl.source import Source, Span
+from robocomp_dsl.syntax.ast.idsl import Interface
 from robocomp_dsl.syntax.ast.node import Node
 from robocomp_dsl.syntax.parse import LANGUAGES, parse_idsl
 from tests.syntax.test_mutated import PIECES, REAL
@@ -71,7 +72,9 @@ def plain(value: Any) -> Any:
         notes = tuple((plain(note.span), note.message) for note in value.notes)
         edits = tuple((plain(e.span), e.text) for e in value.fix.edits) if value.fix else ()
         shown = (value.code.id, value.message, value.label, value.help)
-        return *shown, plain(value.span), notes, edits
+        left = value.uncertain
+        uncertain = left and (plain(left.span), sorted(left.names), left.declares)
+        return *shown, plain(value.span), notes, edits, uncertain
     return value
 
 
@@ -87,13 +90,26 @@ def edit(text: str, rng: random.Random) -> str:
     return text[:at] + put + text[until:]
 
 
+def next_text(texts: list[str], rng: random.Random) -> str:
+    """The last of the texts after an edit, or after some of the edits were undone."""
+    if rng.random() < 0.25:
+        return rng.choice(texts)
+    if rng.random() < 0.1:  # what was deleted is pasted somewhere else
+        at, source = rng.randint(0, len(texts[-1])), rng.choice(texts)
+        start = rng.randint(0, len(source))
+        return texts[-1][:at] + source[start : start + rng.choice((80, 400))] + texts[-1][at:]
+    return edit(texts[-1], rng)
+
+
 @pytest.mark.parametrize("suffix", sorted(LANGUAGES))
 @settings(max_examples=120, suppress_health_check=list(HealthCheck))
 @given(seed=st.integers(0, 2**32))
 def test_incremental_parse_equals_full_parse(suffix: str, seed: int) -> None:
     rng = random.Random(seed)
-    text = rng.choice(TEXTS[suffix])
-    compare(suffix, [text := edit(text, rng) for _ in range(rng.randint(2, 12))])
+    texts = [rng.choice(TEXTS[suffix])]
+    for _ in range(rng.randint(2, 12)):
+        texts.append(next_text(texts, rng))
+    compare(suffix, texts)
 
 
 def compare(suffix: str, texts: list[str]) -> None:
@@ -112,6 +128,23 @@ def compare(suffix: str, texts: list[str]) -> None:
         ], shown
 
 
+PARAMETERS = """\
+ComponentParams P
+{
+    speed float 1 [m/s] 0:20 CHANGED
+    ; int 3;
+    quiet bool true ;live
+    last int 1;
+};
+"""
+
+
+@pytest.mark.parametrize("changed", ["; count", "live count", "live ;", "count ; ;"])
+def test_incremental_parse_reads_statement_before_error_again(changed: str) -> None:
+    texts = [PARAMETERS.replace("CHANGED", text) for text in ("live count", changed, "live count")]
+    compare(".pdsl", texts)
+
+
 def test_incremental_parse_reuses_unchanged_items() -> None:
     memory = dict[str, Any]()
     text = TEXTS[".idsl"][-2]
@@ -119,8 +152,8 @@ def test_incremental_parse_reuses_unchanged_items() -> None:
     edited = text.replace("a20 = 20", "a20 = 2000")
     again = parse_idsl(Source(Path("x.idsl"), edited, memory), Report()).modules[0].declarations
     read = [new.name.text for old, new in zip(first, again, strict=True) if new is not old]
-    # The first has no mark in front of it, so it is always read.
-    assert read == ["S1", "S20"]
+    # The first has no mark in front of it, and recovery may read the item before an error again.
+    assert read == ["S1", "S20", "L20"]
     assert again[-1].span.text == "sequence<S39> L39;"
 
 
@@ -131,3 +164,31 @@ def test_incremental_parse_reuses_items_despite_error_elsewhere() -> None:
     edited = text.replace("a20 = 20", "a20 = ")
     again = parse_idsl(Source(Path("x.idsl"), edited, memory), Report()).modules[0].declarations
     assert sum(new is old for old, new in zip(first, again, strict=False)) > 30
+
+
+def test_incremental_parse_reuses_items_behind_a_stray_brace_that_is_deleted_again() -> None:
+    memory = dict[str, Any]()
+    operations = "".join(f"    void go{n}(int a, out float b);\n" for n in range(300))
+    text = f"module M {{\n  interface I {{\n{operations}  }};\n}};\n"
+    stray = text.replace("go100(", "go100 } } (")
+    parse_idsl(Source(Path("x.idsl"), text, memory), Report())
+    first = parse_idsl(Source(Path("x.idsl"), text, memory), Report()).modules[0].declarations
+    parse_idsl(Source(Path("x.idsl"), stray, memory), Report())
+    parse_idsl(Source(Path("x.idsl"), f"{stray} ", memory), Report())
+    again = parse_idsl(Source(Path("x.idsl"), text, memory), Report()).modules[0].declarations
+    assert isinstance(first[0], Interface)
+    assert isinstance(again[0], Interface)
+    pairs = list(zip(first[0].operations, again[0].operations, strict=True))
+    assert sum(new is old for old, new in pairs) > 270
+    assert again[0].operations[-1].span.text == "void go299(int a, out float b);"
+
+
+def test_incremental_parse_ends_after_too_many_errors_as_a_full_parse_does() -> None:
+    operations = "".join(f"    void go{n}(int a);\n" for n in range(300))
+    text = f"module M {{\n{operations}}};\n"
+    edited = text.replace("go20(", "go20x(")
+    compare(".idsl", [text, edited, edited.replace("go250(", "go250x("), text])
+    report = Report()
+    parse_idsl(Source(Path("x.idsl"), text), report)
+    assert [finding.message for finding in report][-1].startswith("more than 100 errors")
+    assert len(report) == 101

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING
 
@@ -185,6 +186,12 @@ def _address_problem(port: BridgePort, description: MiddlewareDescription) -> st
         )
     if not description.address_problem:
         return ""
-    module, _, function = description.address_problem.partition(":")
-    problem: str = getattr(import_module(module), function)(port.address)
-    return problem
+    return _address_check(description.address_problem)(port.address)
+
+
+@cache
+def _address_check(name: str) -> Callable[[str], str]:
+    """The function `module:function` of a middleware: the problem of an address, or ""."""
+    module, _, function = name.partition(":")
+    check: Callable[[str], str] = getattr(import_module(module), function)
+    return check

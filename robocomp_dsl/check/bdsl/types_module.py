@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import lru_cache
 from pathlib import Path
 
 from robocomp_dsl.model.interface import Interface, Module, Operation, Param, Pattern
@@ -23,6 +24,7 @@ from robocomp_dsl.model.types import (
 from robocomp_dsl.source import Span
 
 
+@lru_cache(maxsize=10_000)
 def camel_case(name: str) -> str:
     """`left_wheel` as `LeftWheel`."""
     parts = (part for part in name.split("_") if part)

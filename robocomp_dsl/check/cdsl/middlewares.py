@@ -78,10 +78,12 @@ def check_roles(
 def _port_middleware(mark: Name, known: KnownMiddlewares, report: Report) -> str:
     name = known.find(mark.text)
     if name is None and mark.text.lower() in LEGACY:
+        meant = [other for other in known.names() if other.startswith(mark.text.lower())]
         report.add(
             codes.NO_BRIDGE,
             mark.span,
-            f"there is no bridge to `{mark.text}` yet: the port uses the component's middleware",
+            f"there is no middleware `{mark.text}`: the port uses that of the component",
+            help=f"name the middleware of its peers: {join_names(meant)}" if meant else "",
         )
     elif name is None:
         _report_unknown(mark, known, report)
@@ -93,13 +95,10 @@ def _port_middleware(mark: Name, known: KnownMiddlewares, report: Report) -> str
 def _report_unknown(written: Name, known: KnownMiddlewares, report: Report) -> None:
     names = known.names()
     guess = nearest(written.text, names)
-    legacy = written.text.lower() in LEGACY
     report.add(
         codes.UNKNOWN_MIDDLEWARE,
         written.span,
-        f"there is no bridge to `{written.text}` yet"
-        if legacy
-        else f"unknown middleware `{written.text}`",
+        f"unknown middleware `{written.text}`",
         label=f"did you mean `{guess}`?" if guess else "",
         help=f"it is one of {join_names(names)}",
         fix=replace_fix(written.span, guess) if guess else None,

@@ -291,11 +291,17 @@ NO_BRIDGE = Code(
     Severity.WARNING,
     "middleware of a port not available",
     """\
-`(ros)` or `(yarp)` after an interface is accepted in files of older tools. There is no such
-middleware here: the port uses that of its component.
+`(ros)` after an interface is accepted in files of older tools. The middlewares are called `ros1`
+and `ros2` here, so the port uses that of its component. The same holds for a middleware that is not
+installed.
 
-    requires Laser(ros);      // currently the same as:
-    requires Laser;
+Wrong:
+
+    requires Laser(ros);
+
+Right:
+
+    requires Laser(ros1);
 """,
 )
 
@@ -395,20 +401,22 @@ Right:
 """,
 )
 
-SLICE_IMPORT = Code(
+OTHER_SUFFIX = Code(
     "RC221",
     Severity.WARNING,
-    "import of an `.ice` file",
+    "import of an `.ice` file, or without a suffix",
     """\
 RoboComp's older tools generate an `.ice` file from each interface description, and some
-descriptions import it. The `.idsl` file with the same name is used instead.
+descriptions import it; others import without a suffix. The `.idsl` file with the same name is used.
 
 Wrong:
 
     import "Laser.ice";
+    import "Camera";
 
 Right:
 
     import "Laser.idsl";
+    import "Camera.idsl";
 """,
 )

@@ -124,8 +124,12 @@ class ImportResolver:
         Files are scanned with a regular expression, not parsed: see `suggest_import`.
         """
         if self._importable is None or self._importable[0] != root:
-            paths = (self.find(known, root) for known in self.importable_files(root))
-            self._importable = (root, [path for path in paths if path is not None])
+            paths: dict[str, Path] = {}
+            for folder in self.search_path(root):
+                for known in self._files.names_in(folder):
+                    if known.lower().endswith(SUFFIX):
+                        paths.setdefault(known, folder / known)
+            self._importable = (root, list(paths.values()))
         return [path for path in self._importable[1] if name in self._declared_names(path)]
 
     def start_run(self) -> None:

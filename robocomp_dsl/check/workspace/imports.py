@@ -59,9 +59,9 @@ def find_import(
         if name.lower().endswith(SUFFIX):
             _report_missing(name, statement, root, search, report)
         else:
-            _report_no_idsl(name, statement, root, search, report)
+            _report_no_idsl(name, statement, report)
     elif _idsl_name(name) != name:
-        _report_slice(name, statement, report)
+        _report_other_suffix(name, statement, report)
     return found
 
 
@@ -119,16 +119,19 @@ def replace_fix(span: Span, text: str) -> Fix:
 
 
 def _idsl_name(name: str) -> str:
-    """The IDSL file of `name`: RoboComp generates `X.ice` from `X.idsl`."""
+    """The IDSL file of `name`: RoboComp generates `X.ice` from `X.idsl`; some imports say `X`."""
+    if name and "." not in base_name(name):
+        return name + SUFFIX
     stem, dot, suffix = name.rpartition(".")
     return stem + SUFFIX if dot and suffix.lower() == _SLICE else name
 
 
-def _report_slice(name: str, statement: Import, report: Report) -> None:
+def _report_other_suffix(name: str, statement: Import, report: Report) -> None:
+    reason = "is generated for Ice" if name.lower().endswith(f".{_SLICE}") else "has no suffix"
     report.add(
-        codes.SLICE_IMPORT,
+        codes.OTHER_SUFFIX,
         statement.path.span,
-        f"`{name}` is generated for Ice; the import uses `{_idsl_name(name)}`",
+        f"`{name}` {reason}; the import uses `{_idsl_name(name)}`",
         fix=replace_fix(statement.path.span, f'"{_idsl_name(name)}"'),
     )
 
@@ -154,16 +157,10 @@ def _report_missing(
     )
 
 
-def _report_no_idsl(
-    name: str, statement: Import, root: Path, search: ImportResolver, report: Report
-) -> None:
-    with_suffix = f"{name}{SUFFIX}"
-    guess = with_suffix if search.find(with_suffix, root) else None
+def _report_no_idsl(name: str, statement: Import, report: Report) -> None:
     report.add(
         codes.NOT_IMPORTABLE,
         statement.path.span,
         f"`{statement.path.value}` is not an `{SUFFIX}` file" if name else "no file is named here",
-        label=f"did you mean `{guess}`?" if guess else "",
         help=f"an import names an interface description, such as `Laser{SUFFIX}`",
-        fix=replace_fix(statement.path.span, f'"{guess}"') if guess else None,
     )

@@ -24,6 +24,7 @@ from robocomp_dsl.model.deployment import ExternalConnection
 from robocomp_dsl.model.limits_text import format_limits
 
 if TYPE_CHECKING:
+    from robocomp_dsl.deploy.checked_deployment import CheckedDeployment
     from robocomp_dsl.deploy.placement.placement_choice import PlacementChoice
 
 
@@ -82,7 +83,7 @@ def command(
         raise CliError(EXIT_FINDINGS)
 
 
-def _print_access(checked: rcdeploy_app.CheckedDeployment, output_format: str) -> None:
+def _print_access(checked: CheckedDeployment, output_format: str) -> None:
     from robocomp_dsl.deploy.network.access_rules import access_rules  # noqa: PLC0415
     from robocomp_dsl.deploy.network.access_text import access_data, access_text  # noqa: PLC0415
     from robocomp_dsl.deploy.network.identities import needs_network  # noqa: PLC0415

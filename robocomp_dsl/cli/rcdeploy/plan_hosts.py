@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import sys
+from typing import TYPE_CHECKING
 
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
-from robocomp_dsl.cli.rcdeploy.app import CheckedDeployment
 from robocomp_dsl.deploy.hosts.errors import HostError
 from robocomp_dsl.deploy.hosts.fleet import open_fleet
 from robocomp_dsl.deploy.hosts.host_checks import describe_failure, host_spans
@@ -15,6 +15,9 @@ from robocomp_dsl.deploy.hosts.placing import PlacedPlan, candidate_hosts, place
 from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.diagnostics import Diagnostic
 from robocomp_dsl.model.deployment import Deployment
+
+if TYPE_CHECKING:
+    from robocomp_dsl.deploy.checked_deployment import CheckedDeployment
 
 
 def placed_plan(checked: CheckedDeployment) -> PlacedPlan | None:

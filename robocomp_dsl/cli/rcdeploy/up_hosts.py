@@ -5,18 +5,20 @@ from __future__ import annotations
 import asyncio
 import sys
 from collections.abc import Callable, Coroutine, Mapping
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
-from robocomp_dsl.cli.rcdeploy.app import CheckedDeployment
 from robocomp_dsl.cli.rcdeploy.running import say
 from robocomp_dsl.deploy import instances
 from robocomp_dsl.deploy.hosts.deployer import Deployer, Rejected
 from robocomp_dsl.deploy.hosts.errors import HostError
 from robocomp_dsl.deploy.hosts.host_checks import HostLimits
+
+if TYPE_CHECKING:
+    from robocomp_dsl.deploy.checked_deployment import CheckedDeployment
 
 Result = TypeVar("Result")
 

@@ -24,6 +24,11 @@ Check = Callable[[Path, Workspace, Report], object]
 @options.files
 @click.option("--syntax", is_flag=True, help="Check syntax only; do not resolve imports.")
 @click.option(
+    "--static",
+    is_flag=True,
+    help="Check texts only, not whether this machine can start the named deployments.",
+)
+@click.option(
     "--fix",
     "fixing",
     is_flag=True,
@@ -38,6 +43,7 @@ def command(
     *,
     files: tuple[Path, ...],
     syntax: bool,
+    static: bool,
     fixing: bool,
     diff: bool,
     world_folders: tuple[Path, ...],
@@ -46,6 +52,9 @@ def command(
     folders: tuple[Path, ...],
 ) -> None:
     """Check files of all languages, also of whole folders.
+
+    Of a deployment that is named, and not found in a folder, it finds the same as `rcdeploy
+    check`: also components that are not generated, invalid configurations, and ports in use.
 
     The exit code is 1 if there are errors, else 0; warnings do not count.
     """
@@ -61,7 +70,10 @@ def command(
     if diff:
         return
     for path in paths:
-        check(path, workspace, report)
+        if path in files and path.suffix.lower() == ".ddsl" and not (syntax or static):
+            _check_deployment(path, workspace, report)
+        else:
+            check(path, workspace, report)
     findings = report.sorted()
     is_human = output_format in options.HUMAN_FORMATS
     shown, unlisted = limit_findings(findings) if is_human else (findings, [])
@@ -74,6 +86,13 @@ def command(
         print(f"{count} checked: {options.summary(findings)}", file=sys.stderr)
     if report.has_errors:
         raise CliError(EXIT_FINDINGS)
+
+
+def _check_deployment(path: Path, workspace: Workspace, report: Report) -> None:
+    """Add all that `rcdeploy check` finds."""
+    from robocomp_dsl.deploy.checked_deployment import check_deployment  # noqa: PLC0415 - for .ddsl only
+
+    report.extend(check_deployment(path, workspace).findings)
 
 
 def _fix(paths: list[Path], check: Check, workspace: Workspace, diff: bool) -> None:

@@ -69,7 +69,7 @@ class Lifecycle:
 
     `on_stop` are called at the request to stop, while a hook may still run; `stops_with_machine`
     says whether the component ends when its state machine has; `exit_code` is that of the process
-    if user code chose it (`exit`). `may_block`: a hook that does not return at a stop is no failure.
+    if user code chose it (`exit`); with `may_block` a hook that does not return is no failure.
     """
 
     def __init__(

@@ -69,11 +69,18 @@ def select_server(at: Endpoint, candidates: Sequence[str]) -> str:
     if not candidates:
         subject = f"{' or '.join(at.peers)} does not serve" if at.peers else "no component serves"
         raise NoServer(f"{subject} {interface}, which {at.component} requires as {at.port}")
-    listed = ", ".join(sorted(candidates))
-    # In a namespace, the suggested name must be absolute.
-    first = f"{'/' if '/' in at.component else ''}{min(candidates).partition('.')[0]}"
+    ordered = tuple(sorted(candidates))
     raise AmbiguousServer(
-        f"{listed} all serve {interface}, which {at.component} requires as {at.port};"
-        f" select one: --connect {at.port}={first}",
-        tuple(sorted(candidates)),
+        f"{', '.join(ordered)} all serve {interface}, which {at.component} requires as {at.port};"
+        f" select one: --connect {at.port}={_shortest_peer(at, ordered)}",
+        ordered,
     )
+
+
+def _shortest_peer(at: Endpoint, candidates: Sequence[str]) -> str:
+    """What selects the first candidate: its component, or its port if others are of the same."""
+    first = candidates[0]
+    component = first.partition(".")[0]
+    others = (candidate.partition(".")[0] for candidate in candidates[1:])
+    # In a namespace, the name must be absolute.
+    return f"{'/' if '/' in at.component else ''}{first if component in others else component}"

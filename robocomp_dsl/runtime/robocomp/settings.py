@@ -23,7 +23,7 @@ def old_settings(
     result: dict[str, Any] = {}
     for key, path, listed, texts in settings:
         value: Any = values.get(path)
-        if listed:
+        if listed and value is None:  # migrated when PDSL had lists of groups only
             value = [v for name, v in values.items() if name.startswith(f"{path}[")]
         if not tables:
             result[".".join(key)] = _text(value, texts)
@@ -37,7 +37,7 @@ def old_settings(
 
 def _text(value: Any, texts: dict[Any, str]) -> str:
     """The text of a value; with the spelling of the old file, unless the value was changed."""
-    if texts and value in texts:
+    if texts and not isinstance(value, list) and value in texts:
         return texts[value]
     if isinstance(value, bool):
         return str(value).lower()

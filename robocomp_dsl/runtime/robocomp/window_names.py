@@ -16,6 +16,13 @@ from PySide6.QtGui import *  # type: ignore[assignment] # noqa: F403
 from PySide6.QtWidgets import *  # type: ignore[assignment] # noqa: F403
 
 
+class CurrentApplication:
+    """`qApp`, which Qt 6 no longer has: the application of the process."""
+
+    def __getattr__(self, name: str) -> _Any:
+        return getattr(_qt.QtCore.QCoreApplication.instance(), name)
+
+
 def _merged(name: str, *modules: _Module) -> _Any:
     """A module with the public names of `modules`; a later one has precedence."""
     merged = _Module(name)
@@ -28,6 +35,8 @@ def _merged(name: str, *modules: _Module) -> _Any:
 QtCore = _merged("QtCore", _qt.QtCore)
 QtGui = _merged("QtGui", _qt.QtWidgets, _qt.QtGui)
 QtWidgets = _merged("QtWidgets", _qt.QtGui, _qt.QtWidgets)
+qApp = CurrentApplication()  # noqa: N816
+QtCore.qApp = QtGui.qApp = QtWidgets.qApp = qApp
 pyqtSignal = QtCore.pyqtSignal = _qt.QtCore.Signal  # noqa: N816
 pyqtSlot = QtCore.pyqtSlot = _qt.QtCore.Slot  # noqa: N816
 pyqtProperty = QtCore.pyqtProperty = _qt.QtCore.Property  # noqa: N816

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 from robocomp_dsl.diagnostics import Diagnostic
 from robocomp_dsl.record import Record
 from robocomp_dsl.source import Source, TextRegion
+from robocomp_dsl.syntax.ast.node import Node
 from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
 from robocomp_dsl.syntax.grammar.lexer import Token
 from robocomp_dsl.syntax.grammar.lr_state import ParserState
@@ -36,7 +37,8 @@ class ParserSnapshot(NamedTuple):
 class Checkpoint(NamedTuple):
     """A position between two items, before the token [start, end).
 
-    The previous item is number `item_number` (from 1) of `items`; `diagnostic_count` counts the
+    The previous item, which recovery may read again, is number `item_number` (from 1) of `items`
+    and begins at `item_start`; `diagnostic_count` counts the
     diagnostics so far. `region` owns the spans since the previous checkpoint; it has moved by
     `region_offset` since its text was parsed. The parser has read the text up to `read_end`.
     """
@@ -47,6 +49,7 @@ class Checkpoint(NamedTuple):
     snapshot: ParserSnapshot
     items: list[Any]
     item_number: int
+    item_start: int
     diagnostic_count: int
     region: TextRegion
     region_offset: int
@@ -66,6 +69,7 @@ class Checkpoint(NamedTuple):
             self.snapshot,
             here.items if beside else self.items,
             self.item_number + (here.item_number - old.item_number if beside else 0),
+            self.item_start + displacement,
             self.diagnostic_count + here.diagnostic_count - old.diagnostic_count,
             self.region,
             self.region_offset + displacement,
@@ -115,11 +119,18 @@ def checkpoint_at(
         snapshot,
         items,
         len(items),
+        item_start(machine),
         len(findings.report),
         region,
         0,
         max(token.end, machine.stream.read_end),
     )
+
+
+def item_start(machine: ParserState) -> int:
+    """Where the previous item of the innermost list of items begins."""
+    item = machine.stack[-1][1][-1]
+    return item.span.start if isinstance(item, Node) else machine.recent_tokens[-1].end
 
 
 def _indentation(text: str, offset: int) -> str:

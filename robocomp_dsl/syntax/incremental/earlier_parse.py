@@ -37,19 +37,20 @@ class EarlierParse:
         ends = [checkpoint.read_end for checkpoint in known]
         self._before = bisect_right(ends, self._delta.lookahead_limit) - 1
 
-    def has_checkpoint(self, previous_end: int, token: Token) -> bool:
-        """Whether there was a checkpoint at `token`, and nothing changed since `previous_end`."""
-        displacement = self._delta.displacement(previous_end, token.end)
+    def has_checkpoint(self, item_start: int, token: Token) -> bool:
+        """Whether there was a checkpoint at `token`, and nothing changed since `item_start`."""
+        displacement = self._delta.displacement(item_start, token.end)
         return displacement is not None and token.start - displacement in self._numbers
 
     def part_after(self, here: Checkpoint) -> ReusablePart | None:
         """The unchanged items after `here`, as many as possible; None if there are none."""
-        displacement = self._delta.displacement(here.previous.end, here.end)
+        displacement = self._delta.displacement(here.item_start, here.end)
         if displacement is None:
             return None
         number = self._numbers[here.start - displacement]
         old = self._cache.checkpoints[number]
-        if old.snapshot != here.snapshot or old.previous.end != here.previous.end - displacement:
+        moved = (old.previous.end + displacement, old.item_start + displacement)
+        if old.snapshot != here.snapshot or moved != (here.previous.end, here.item_start):
             return None
         last = self._last_of_part(number)
         passed = self._cache.checkpoints[number + 1 : last + 1]
@@ -73,7 +74,7 @@ class EarlierParse:
         """
         checkpoints = self._cache.checkpoints
         old = checkpoints[number]
-        last = len(checkpoints) - 1 if old.previous.end > self._delta.end else self._before
+        last = len(checkpoints) - 1 if old.item_start > self._delta.end else self._before
         # Behind the limit, diagnostics depend on the number of those before.
         most = old.diagnostic_count + self._findings.count_before_limit
         while last > number and not (

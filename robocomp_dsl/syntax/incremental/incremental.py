@@ -17,7 +17,12 @@ from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
 from robocomp_dsl.syntax.grammar.lr_state import ParserState
-from robocomp_dsl.syntax.incremental.checkpoint import Checkpoint, ParseCache, checkpoint_at
+from robocomp_dsl.syntax.incremental.checkpoint import (
+    Checkpoint,
+    ParseCache,
+    checkpoint_at,
+    item_start,
+)
 from robocomp_dsl.syntax.incremental.earlier_parse import EarlierParse, ReusablePart
 
 MAX_STACK_DEPTH = 20
@@ -66,8 +71,8 @@ class IncrementalParse:
             or self._findings.limit_reached
         ):
             return token
-        end = machine.recent_tokens[-1].end
-        known = [earlier for earlier in self._earlier if earlier.has_checkpoint(end, token)]
+        start = item_start(machine)
+        known = [earlier for earlier in self._earlier if earlier.has_checkpoint(start, token)]
         is_top = len(machine.stack) <= TOP_DEPTH
         if not known and not is_top and token.start - self._last < MIN_DISTANCE:
             return token

@@ -62,7 +62,7 @@ def all_repairs(
     if not item and not context.lookahead[0].kind.endswith(("ID", "_TYPE")):
         yield from whole.swapped_tokens(context, item, keep)
         yield from whole.missing_keyword(context, before)
-    yield from list_mistakes(context, accepted)
+    yield from list_mistakes(context, accepted, item, keep)
     yield from whole.doubled_token(context, item, keep)
     yield from whole.name_behind_parenthesis(context, item, keep)
     yield from whole.doubled_sign(context, accepted)

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.cli.rcdeploy.app import CheckedDeployment, check
+from robocomp_dsl.cli.rcdeploy.app import check
+from robocomp_dsl.deploy.checked_deployment import CheckedDeployment
 from robocomp_dsl.deploy.hosts import registry
 from robocomp_dsl.deploy.hosts.deployer import Deployer
 from robocomp_dsl.deploy.hosts.differences import HostChanges

@@ -45,7 +45,7 @@ def test_leave_from_compute_ends_component(run_worker: Run) -> None:
             sys.exit(3)
 
     running = run_worker(SpecificWorker)
-    wait_until(lambda: running.life.finalized.is_set())
+    wait_until(running.life.finalized.is_set)
     assert running.life.exit_code == 3
     assert calls == ["compute"]
 
@@ -62,7 +62,7 @@ def test_leave_from_slot_ends_component(run_worker: Run) -> None:
             sys.exit()
 
     running = run_worker(SpecificWorker)
-    wait_until(lambda: running.life.finalized.is_set())
+    wait_until(running.life.finalized.is_set)
     assert running.life.exit_code == 0
 
 
@@ -82,7 +82,7 @@ def test_leave_from_setParams_ends_component_before_compute(run_worker: Run) -> 
             calls.append("compute")
 
     running = run_worker(SpecificWorker)
-    wait_until(lambda: running.life.finalized.is_set())
+    wait_until(running.life.finalized.is_set)
     assert (running.life.exit_code, calls) == (255, [])
 
 
@@ -99,7 +99,7 @@ def test_leave_from_handler_ends_component(run_worker: Run) -> None:
     wait_until(lambda: running.life.state.value == "compute")
     with pytest.raises(SystemExit):
         running.call(running.worker.Robot_halt, 4)
-    wait_until(lambda: running.life.finalized.is_set())
+    wait_until(running.life.finalized.is_set)
     assert running.life.exit_code == 4
 
 
@@ -118,7 +118,7 @@ def test_leave_while_initialize_waits_is_no_failure(
     running = run_worker(SpecificWorker)
     wait_until(lambda: bool(waiting))
     running.life.stop()
-    wait_until(lambda: running.life.finalized.is_set())
+    wait_until(running.life.finalized.is_set)
     assert running.life.exit_code == 0
     assert "failed" not in caplog.text
 
@@ -139,7 +139,7 @@ def test_delete_runs_once_at_the_end(run_worker: Run) -> None:
             calls.append("closed")
 
     running = run_worker(SpecificWorker)
-    wait_until(lambda: running.life.finalized.is_set())
+    wait_until(running.life.finalized.is_set)
     assert calls == ["closed"]
     running.worker.__del__()
     assert calls == ["closed"]

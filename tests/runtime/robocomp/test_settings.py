@@ -37,6 +37,16 @@ def test_old_settings_keep_spelling_of_unchanged_values(
     assert old_settings(params(**values), SETTINGS, tables=False) == expected
 
 
+def test_old_settings_have_lists_of_values() -> None:
+    settings: tuple[Setting, ...] = (
+        (("Joints", "Gains"), "Joints.Gains", True, {}),
+        (("former",), "former", True, {}),
+    )
+    values = {"Joints.Gains": [1.0, 2.5], "former[0].value": 1, "former[1].value": 2}
+    tables = old_settings(params(**values), settings, tables=True)
+    assert tables == {"Joints": {"Gains": [1.0, 2.5]}, "former": [1, 2]}
+
+
 def test_old_settings_of_tables_have_values() -> None:
     tables = old_settings(params(), SETTINGS, tables=True)
     assert tables == {"Laser": {"Rate": 0.5}, "show": True, "plain": 2.0}
