@@ -56,6 +56,14 @@ ComponentParams P
     quiet bool true live;
 };
 """
+CDSL = """\
+import "Laser.idsl";
+Component c
+{
+    Communications { implements Laser; };
+    language Python;
+};
+"""
 CASES = [
     (".idsl", IDSL, "string name;", "string string name;", "`string` is written twice"),
     (".idsl", IDSL, "module M", "module module M", "`module` is written twice"),
@@ -71,6 +79,31 @@ CASES = [
     (".smdsl", SMDSL, "=> Busy", "=>=> Busy", "`=>` is written twice"),
     (".smdsl", SMDSL, "Idle =>", "=> Idle", "`=>` and `Idle` are in the wrong order"),
     (".smdsl", SMDSL, "=> Busy", "=> Buzsy", "unknown state `Buzsy`"),
+    (".pdsl", PDSL, "speed float", "speed", "`float` is missing after `speed`"),
+    (".pdsl", PDSL, "0:20", ":0 20", "`:` and `0` are in the wrong order"),
+    (".pdsl", PDSL, "0:20", "0 20:", "`20` and `:` are in the wrong order"),
+    (".pdsl", PDSL, "0:20", "0 20", "`:` is missing after `0`"),
+    (".pdsl", PDSL, "[m/s] 0:20", "0 [m/s] :20", "`0` and `[m/s]` are in the wrong order"),
+    (".pdsl", PDSL, "0:20 live", "0: live 20", "`live` and `20` are in the wrong order"),
+    (".pdsl", PDSL, "live;", ";live", "`;` and `live` are in the wrong order"),
+    (
+        ".pdsl",
+        PDSL,
+        "live;\n    quiet",
+        "live quiet\n    ;",
+        "`quiet` and `;` are in the wrong order",
+    ),
+    (
+        ".pdsl",
+        PDSL,
+        "quiet bool true live;\n}",
+        "quiet bool true live;\n",
+        "`}` is missing before `;`",
+    ),
+    (".smdsl", SMDSL, "initial_state Idle", "Idle", "`initial_state` is missing before `Idle`"),
+    (".smdsl", SMDSL, "states Busy;", "states ;Busy", "`;` and `Busy` are in the wrong order"),
+    (".idsl", IDSL, "void forget(", "void (forget ", "`(` and `forget` are in the wrong order"),
+    (".cdsl", CDSL, "Communications {", "{", "`Communications` is missing before `{`"),
     (".pdsl", PDSL, "0:20", "0::20", "`:` is written twice"),
     (".pdsl", PDSL, "true live", "true live live", "`live` is written twice"),
 ]
@@ -131,3 +164,24 @@ def test_measure_finds_faults_in_each_language(suffix: str, kind: str) -> None:
     assert all(outcome.errors for outcome in outcomes)
     if kind == "double":
         assert sum(outcome.restored for outcome in outcomes) >= 0.8 * len(outcomes)
+
+
+MISSING = [
+    (".idsl", IDSL, "struct Place", "struct", "a name is missing after `struct`"),
+    (".cdsl", CDSL, '"Laser.idsl"', "", 'a "string" is missing after `import`'),
+    (".cdsl", CDSL, "implements Laser", "implements as l", "a name is missing after `implements`"),
+    (".smdsl", SMDSL, "=> Busy on", "=> on", "a name is missing after `=>`"),
+    (".smdsl", SMDSL, "states Busy", "states", "a name is missing after `states`"),
+    (".smdsl", SMDSL, "        Idle => Busy", "        => Busy", "a name is missing before `=>`"),
+]
+"""Names that no repair can know: one error, and nothing about what follows from it."""
+
+
+@pytest.mark.parametrize(("suffix", "text", "right", "wrong", "message"), MISSING)
+def test_missing_operand_is_one_error(
+    suffix: str, text: str, right: str, wrong: str, message: str, tmp_path: Path
+) -> None:
+    changed = text.replace(right, wrong, 1)
+    assert changed != text
+    errors = find_errors(tmp_path / f"x{suffix}", changed)
+    assert [error.message for error in errors] == [message]

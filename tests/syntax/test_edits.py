@@ -72,7 +72,9 @@ def plain(value: Any) -> Any:
         notes = tuple((plain(note.span), note.message) for note in value.notes)
         edits = tuple((plain(e.span), e.text) for e in value.fix.edits) if value.fix else ()
         shown = (value.code.id, value.message, value.label, value.help)
-        return *shown, plain(value.span), notes, edits
+        left = value.uncertain
+        uncertain = left and (plain(left.span), sorted(left.names), left.declares)
+        return *shown, plain(value.span), notes, edits, uncertain
     return value
 
 
@@ -124,6 +126,23 @@ def compare(suffix: str, texts: list[str]) -> None:
         assert [plain(diagnostic) for diagnostic in remaining] == [
             plain(diagnostic) for diagnostic in alone
         ], shown
+
+
+PARAMETERS = """\
+ComponentParams P
+{
+    speed float 1 [m/s] 0:20 CHANGED
+    ; int 3;
+    quiet bool true ;live
+    last int 1;
+};
+"""
+
+
+@pytest.mark.parametrize("changed", ["; count", "live count", "live ;", "count ; ;"])
+def test_incremental_parse_reads_statement_before_error_again(changed: str) -> None:
+    texts = [PARAMETERS.replace("CHANGED", text) for text in ("live count", changed, "live count")]
+    compare(".pdsl", texts)
 
 
 def test_incremental_parse_reuses_unchanged_items() -> None:

@@ -27,8 +27,11 @@ def repair_range(attributes: Sequence[Any], builder: Builder) -> Sequence[Any]:
             low, high, message = found
             whole = low.span.subspan(parts[0].span.start, parts[-1].span.end)
             middle = parts[1:-1]
-            texts = (f"{low.span.text}:{high.span.text}", *(part.span.text for part in middle))
-            fix = builder.replace_fix(f"write `{texts[0]}`", whole, " ".join(texts))
+            written = f"{low.span.text}:{high.span.text}"
+            texts = [written, *(part.span.text for part in middle)]
+            if isinstance(parts[0], Number):
+                texts.reverse()
+            fix = builder.replace_fix(f"write `{written}`", whole, " ".join(texts))
             builder.report(codes.UNEXPECTED, whole, message, fix=fix)
             range_ = ast.Range(whole, low, high)
             return [*attributes[:index], range_, *middle, *attributes[index + count :]]
