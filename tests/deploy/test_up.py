@@ -76,7 +76,7 @@ def test_param_command_reads_and_sets_running_parameters(app_folder: Path) -> No
         assert data["arm"][0]["value"] == "30.0"
         for wrong, hint in (
             (("get", "app", "arm", "rat"), "did you mean `rate`?"),
-            (("get", "app", "amr", "rate"), "it has arm, eye"),
+            (("get", "app", "amr", "rate"), "did you mean `arm`?"),
             (("get", "nothing", "arm", "rate"), "is not running"),
         ):
             run = rcdeploy("param", *wrong)
