@@ -36,4 +36,4 @@ def test_inspect_commands_find_components_of_deployment(app_folder: Path) -> Non
         statement = "connect eye.Laser -> arm.Laser { priority low; };"
         assert statement in (app_folder / "app.ddsl").read_text()
         wrong = rcdeploy("call", "amr.Laser.getLaserData")
-        assert (wrong.returncode, "it has arm, eye" in wrong.stderr) == (1, True), wrong.stderr
+        assert (wrong.returncode, "did you mean `arm`?" in wrong.stderr) == (1, True), wrong.stderr

@@ -43,9 +43,10 @@ class QRecursiveMutex(QMutex):
 class QMutexLocker:
     """Holds a lock until the end of its `with` block, `unlock`, or the end of its variable."""
 
+    _holds = False  # also if the end of `compute` interrupts `__init__`
+
     def __init__(self, mutex: QMutex) -> None:
         self._mutex = mutex
-        self._holds = False
         self.relock()
 
     def relock(self) -> None:
