@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import uuid
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -223,6 +224,28 @@ def test_remap_of_a_searching_port_selects_peers_by_port(deployment: Deployment)
     deployment.sink_connections.disconnect("News", "a")
     deployment.sink_connections.connect("News", "/b.Other", "")
     wait_until(lambda: "b" in deployment.sink.sources())
+
+
+def test_connections_change_before_the_ports_are_open(deployment: Deployment) -> None:
+    class LateSink(Sink):
+        SPEC = replace(Sink.SPEC, name="late_sink")
+        gate = threading.Event()
+
+        def initialize(self) -> None:
+            self.gate.wait(60)
+
+    runner = deployment.start(LateSink, connections={"News": ("a",)})
+    late: Any = runner.worker
+    connections = deployment.connections("late_sink")
+    connections.disconnect("News", "a")
+    connections.connect("News", "/b.News", "")
+    connections.setQos("News", "b.News", "depth=7")
+    with pytest.raises(Refusal, match="not connected to `a`"):
+        connections.disconnect("News", "a")
+    late.gate.set()
+    wait_until(lambda: late.sources() == {"b"})
+    (port,) = runner.ports.subscribed
+    assert [each.at.qos.depth for each in port.subscriptions] == [7]
 
 
 def test_set_qos_changes_depth_of_one_connection(deployment: Deployment) -> None:

@@ -16,11 +16,12 @@ import time
 from collections.abc import Callable
 from enum import StrEnum
 from functools import partial
-from typing import Protocol
 
-from robocomp_dsl.runtime.clock import CLOCK_LOST, NANO, TIME_DIGITS, Clock, WakeEvent
+from robocomp_dsl.runtime.clock import CLOCK_LOST, NANO, Clock, WakeEvent
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.hook_thread import HookThread
+from robocomp_dsl.runtime.component.hooks import Hooks
+from robocomp_dsl.runtime.component.period_schedule import PeriodSchedule
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.component.user_errors import describe_error, log_error, log_failure
@@ -30,7 +31,6 @@ from robocomp_dsl.runtime.parameters import ConfigError
 log = logging.getLogger("robocomp")
 RETRY_MS = 500
 """Period of the attempts to leave an emergency, for components without a period."""
-OVERRUN = "compute exceeded its period of %g ms by %.1f ms; overruns since the start: %d"
 SLOT_TIMEOUT_S = 1.0
 """Time that `finalize` waits for a callback that is running."""
 
@@ -43,25 +43,6 @@ class LifecycleState(StrEnum):
     EMERGENCY = "emergency"
     RESTORE = "restore"
     FINALIZE = "finalize"
-
-
-class Hooks(Protocol):
-    """The methods that the lifecycle calls."""
-
-    def initialize(self) -> None:
-        """Called once, before anything else."""
-
-    def compute(self) -> None:
-        """Called every period."""
-
-    def emergency(self) -> None:
-        """Called every period of an emergency."""
-
-    def restore(self) -> None:
-        """Called before leaving an emergency."""
-
-    def finalize(self) -> None:
-        """Called once, at the end."""
 
 
 class Lifecycle:
@@ -101,7 +82,7 @@ class Lifecycle:
         self.exit_code: int | None = None
         self.may_block = False
         self._throttle = Throttle()
-        self._overrun_throttle = Throttle()
+        self._schedule = PeriodSchedule(clock, statistics)
 
     def use_hooks(self, hooks: Hooks) -> None:
         """Call these hooks from now on; they and handlers no longer exclude each other."""
@@ -201,7 +182,7 @@ class Lifecycle:
                 self.statistics.computes.add(time.perf_counter_ns() - begun)
             elif self.machine:
                 self._run_guarded(self._advance_machine)
-            due = self._next_due(due, period)
+            due = self._schedule.next_due(due, period)
             self._clock.wait_until(due if period is not None else self._next_timer(), self._wake)
             if self._stopping.is_set():
                 return
@@ -221,20 +202,6 @@ class Lifecycle:
         if self.period_ms:
             return self.period_ms / 1000
         return RETRY_MS / 1000 if self.state is LifecycleState.EMERGENCY else None
-
-    def _next_due(self, due: float, period: float | None) -> float:
-        """When the next cycle starts; missed cycles are skipped."""
-        now = self._clock.now()
-        if period is None:
-            return now
-        due += period
-        if due < now:
-            self.statistics.overruns += 1
-            if self._overrun_throttle.allows("overrun"):
-                log.warning(OVERRUN, 1000 * period, 1000 * (now - due), self.statistics.overruns)
-            # Keep the phase, so that a slow cycle does not shift the following ones.
-            due += ((now - due) // period) * period
-        return round(due, TIME_DIGITS)
 
     def _cycle(self) -> None:
         if self.state is LifecycleState.COMPUTE:

@@ -201,15 +201,22 @@ class Rewiring:
         return port
 
     def _apply(self, port: ServedPort | CalledPort, settings: RunSettings) -> None:
-        """Put settings in force. Raises `Refusal`, and then the former are in force."""
+        """Put settings in force. Raises `Refusal`, and then the former are in force.
+
+        A port that is not open yet opens with them.
+        """
         wiring = self._wiring
-        former, before = wiring.settings, wiring.endpoint(port)
-        wiring.settings = settings
-        try:
-            update_port(self._ports(), wiring.role_of(port), before, wiring.endpoint(port))
-        except MiddlewareError as error:
-            wiring.settings = former
-            raise Refusal(str(error)) from None
+        with wiring.lock:
+            former, before = wiring.settings, wiring.endpoint(port)
+            wiring.settings = settings
+            try:
+                if wiring.is_open(port):
+                    update_port(self._ports(), wiring.role_of(port), before, wiring.endpoint(port))
+                else:
+                    wiring.check_qos()
+            except MiddlewareError as error:
+                wiring.settings = former
+                raise Refusal(str(error)) from None
 
 
 def _is_same(name: str, other: str) -> bool:

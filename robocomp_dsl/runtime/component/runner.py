@@ -8,7 +8,6 @@ until `stop`. The lifecycle runs in its own thread, so the main thread can handl
 from __future__ import annotations
 
 import logging
-import math
 import threading
 import time
 from collections.abc import Callable
@@ -18,16 +17,14 @@ from typing import Any
 from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.component import Component
-from robocomp_dsl.runtime.component.component_interface import COMPONENT
-from robocomp_dsl.runtime.component.connections_servant import ConnectionsServant
 from robocomp_dsl.runtime.component.hang_report import HangReport
 from robocomp_dsl.runtime.component.hook_thread import HookThread, LifecycleThread
-from robocomp_dsl.runtime.component.introspection import Introspection
 from robocomp_dsl.runtime.component.lifecycle import (
     SLOT_TIMEOUT_S,
     Lifecycle,
     LifecycleState,
 )
+from robocomp_dsl.runtime.component.own_interfaces import serve_own_interfaces
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.shown_parameters import ShownParameters
 from robocomp_dsl.runtime.component.spec import CalledPort, ServedPort
@@ -35,13 +32,11 @@ from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.supervision import Supervision, own_supervision
 from robocomp_dsl.runtime.component.user_errors import add_user_folder, describe_error, log_error
 from robocomp_dsl.runtime.component.watchdog import CallbackWatchdog
+from robocomp_dsl.runtime.component.watched_callbacks import WatchedCallbacks, watchdog_limit
 from robocomp_dsl.runtime.component.wiring import Wiring
 from robocomp_dsl.runtime.connection.component_ports import open_ports
-from robocomp_dsl.runtime.connection.connections_interface import COMPONENTCONNECTIONS
-from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.monitor_setup import load_monitors, monitored_ports
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
-from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA
 from robocomp_dsl.runtime.errors import MiddlewareError, MonitorError, WindowError, WorkerError
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.parameters import Parameters
@@ -54,8 +49,6 @@ SHUTDOWN_TIMEOUT_S = 2.0
 FINALIZE_TIMEOUT_S = 1.5
 """Time for `finalize` beside a hook that did not return. The sum of the three is below the grace
 period of rcdeploy."""
-PING_MARGIN = 0.75
-"""A hang is found after this share of the interval in which the supervisor expects a ping."""
 HANG_TIMEOUT_S = 0.3
 """Time for the current hook to return after the watchdog has found a hang."""
 
@@ -145,28 +138,21 @@ class Runner:
         self._thread = threading.Thread(
             target=self._run, name=f"{self.name}.lifecycle", daemon=True
         )
-        limit = self._watchdog_limit()
+        self.watchdog = self._create_watchdog()
+
+    def _create_watchdog(self) -> CallbackWatchdog | None:
+        configured = self.settings.watchdog
+        limit = self.spec.watchdog if configured is None else configured
+        limit = watchdog_limit(limit, self.notifier.watchdog_s)
+        if not limit:
+            return None
+        watched = WatchedCallbacks(self.name, self.lifecycle, self._hook_thread, self._thread)
         group = self.callback_group
-        self.watchdog = (
-            CallbackWatchdog(limit, group, self._activity_of, self._on_hang, self._on_beat)
-            if limit
-            else None
-        )
+        return CallbackWatchdog(limit, group, watched.activity_of, self._on_hang, self._on_beat)
 
     def _call_hook(self, hook: str, *arguments: object) -> None:
         """Call a hook of the user's class for an event of a connection."""
         getattr(self.worker, hook)(*arguments)
-
-    def _watchdog_limit(self) -> float:
-        """The time in s that a callback may take; 0.0: no limit.
-
-        A supervisor that expects pings more often than that sets a lower one.
-        """
-        configured = self.settings.watchdog
-        limit = self.spec.watchdog if configured is None else configured
-        if not self.notifier.watchdog_s:
-            return limit
-        return min(limit or math.inf, self.notifier.watchdog_s * PING_MARGIN)
 
     def _on_beat(self, seconds: float) -> None:
         self._hangs.beat(seconds)
@@ -221,19 +207,13 @@ class Runner:
         handlers: dict[str, OperationCallable] = {
             operation: getattr(self.worker, method) for operation, method in port.methods.items()
         }
-        serve(self.wiring.endpoint(port), handlers, self.callback_group)
+        with self.wiring.lock:
+            serve(self.wiring.endpoint(port), handlers, self.callback_group)
+            self.wiring.mark_open(port)
 
     def start(self) -> None:
-        """Serve the interface `Component` and start the lifecycle thread."""
-        introspection = Introspection(self)
-        at = Endpoint(COMPONENT, self.name, "Component")
-        self.ports.serve(at, introspection.handlers(), introspection.callback_group)
-        # An interface of its own: a new operation in `Component` would change its type hash.
-        at = Endpoint(COMPONENTSCHEMA, self.name, "Component")
-        self.ports.serve(at, introspection.schema_handlers(), introspection.callback_group)
-        at = Endpoint(COMPONENTCONNECTIONS, self.name, "Component")
-        servant = ConnectionsServant(self)
-        self.ports.serve(at, servant.handlers(), introspection.callback_group)
+        """Serve the interfaces of every component, and start the lifecycle thread."""
+        serve_own_interfaces(self)
         self._thread.start()
         if self.watchdog:
             self.watchdog.start()
@@ -328,19 +308,6 @@ class Runner:
         ).start()
         if not life.finalized.wait(FINALIZE_TIMEOUT_S):
             log.error("finalize did not return within %g s", FINALIZE_TIMEOUT_S)
-
-    def _activity_of(self, thread: int) -> str:
-        """What a thread in the callback group does; "" for a hook that is exempt."""
-        activity = self._hook_thread.activity_of(thread)
-        if activity == "slot":
-            return "a slot of the window"
-        if activity or thread == self._thread.ident:
-            state = self.lifecycle.state
-            watched = state not in (LifecycleState.INITIALIZE, LifecycleState.FINALIZE)
-            return state.value if watched else ""
-        name = next((t.name for t in threading.enumerate() if t.ident == thread), "")
-        own, _, port = name.rpartition(".")
-        return f"a handler of {port}" if own == self.name else f"a call in thread {name or thread}"
 
     def _on_hang(self, report: HangReport) -> None:
         """End the component; `finalize` runs beside the thread that hangs."""

@@ -6,6 +6,7 @@ for each port: peers, middlewares and quality of service.
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator
 
 from robocomp_dsl.runtime.component.interface import Interface
@@ -27,12 +28,25 @@ SEARCHING_ROLES = ("client", "subscriber")
 
 
 class Wiring:
-    """The ports of one component; `settings` are those in force."""
+    """The ports of one component; `settings` are those in force.
+
+    `lock` is held while a port opens or changes, so that an open port and `settings` agree.
+    """
 
     def __init__(self, name: str, spec: ComponentSpec, settings: RunSettings) -> None:
         self.name = name
         self.spec = spec
         self.settings = settings
+        self.lock = threading.RLock()
+        self._unopened: list[ServedPort | CalledPort] = [*spec.implements, *spec.subscribes]
+
+    def is_open(self, port: ServedPort | CalledPort) -> bool:
+        """Whether a change of the port must change more than `settings`."""
+        return not any(other is port for other in self._unopened)
+
+    def mark_open(self, port: ServedPort | CalledPort) -> None:
+        """The port is served or subscribed from now on."""
+        self._unopened = [other for other in self._unopened if other is not port]
 
     def ports(self) -> Iterator[tuple[str, ServedPort | CalledPort]]:
         """All ports with their roles."""
