@@ -37,7 +37,8 @@ def interface(lines: int) -> str:
     return f"module Big\n{{\n{''.join(parts)}    interface Big\n    {{\n{calls}    }};\n}};\n// \n"
 
 
-async def _measure() -> list[dict[str, Any]]:
+async def open_server() -> tuple[LanguageClient, asyncio.Queue[Any]]:
+    """A client of a server process, and the files and versions whose findings arrived."""
     client = LanguageClient("bench", "1")
     arrived: asyncio.Queue[tuple[str, int | None]] = asyncio.Queue()
 
@@ -48,6 +49,11 @@ async def _measure() -> list[dict[str, Any]]:
     await client.start_io(*SERVER)
     await client.initialize_async(lsp.InitializeParams(lsp.ClientCapabilities()))
     client.initialized(lsp.InitializedParams())
+    return client, arrived
+
+
+async def _measure() -> list[dict[str, Any]]:
+    client, arrived = await open_server()
     figures: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory() as folder:
         texts = {f"o{n}.idsl": interface(60).replace("Big", f"O{n}") for n in range(OTHERS)}

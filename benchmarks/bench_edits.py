@@ -22,9 +22,8 @@ from statistics import median, quantiles
 from typing import Any
 
 from lsprotocol import types as lsp
-from pygls.lsp.client import LanguageClient
 
-from benchmarks.bench_editor import SERVER, processor_time
+from benchmarks.bench_editor import open_server, processor_time
 from benchmarks.edits import KINDS, TextEdit
 from benchmarks.large_files import write_large_files
 from robocomp_dsl.language_server.documents import synchronize
@@ -106,16 +105,7 @@ def measure(
 
 async def _measure_protocol(names: Collection[str]) -> list[dict[str, Any]]:
     """Time on the clock and processor time of a real server."""
-    client = LanguageClient("bench", "1")
-    arrived: asyncio.Queue[tuple[str, int | None]] = asyncio.Queue()
-
-    @client.feature(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
-    def _(params: lsp.PublishDiagnosticsParams) -> None:
-        arrived.put_nowait((params.uri, params.version))
-
-    await client.start_io(*SERVER)
-    await client.initialize_async(lsp.InitializeParams(lsp.ClientCapabilities()))
-    client.initialized(lsp.InitializedParams())
+    client, arrived = await open_server()
     figures: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory() as folder:
         for name, (path, text) in write_large_files(Path(folder)).items():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import socket
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from robocomp_dsl.cli import program
 from robocomp_dsl.cli.rcdeploy.main import normalise_arguments
 from robocomp_dsl.cli.rcdeploy.main import program as rcdeploy
 from tests.cli.rcgen_run import Rcgen, Run
+from tests.deploy.rcdeploy_process import runtime_folder
 
 ROOT = Path(__file__).parents[2]
 DEPLOYMENTS = sorted(
@@ -36,23 +38,12 @@ class Rcdeploy(Rcgen):
 
 
 @pytest.fixture
-def rcgen(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Rcgen:
-    monkeypatch.setenv("NO_COLOR", "1")
-    return Rcgen(monkeypatch, capsys)
-
-
-@pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
-@pytest.fixture
 def deploy(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], socket_folder: Path
-) -> Rcdeploy:
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Iterator[Rcdeploy]:
     monkeypatch.setenv("NO_COLOR", "1")
-    return Rcdeploy(monkeypatch, capsys)
+    with runtime_folder(monkeypatch):
+        yield Rcdeploy(monkeypatch, capsys)
 
 
 @pytest.mark.parametrize("path", DEPLOYMENTS, ids=str)
