@@ -40,6 +40,7 @@ from robocomp_dsl.migrate.deployment import candidate_names, draft_deployment, f
 from robocomp_dsl.migrate.instances import COMMON_BEHAVIOR, DeploymentDraft
 from robocomp_dsl.migrate.manager import ManagerNode, read_manager
 from robocomp_dsl.migrate.migrated_component import MigratedComponent
+from robocomp_dsl.migrate.original_lines import locate_in_originals
 from robocomp_dsl.migrate.yarp.migration import is_yarp_file, plan_yarp_files
 from robocomp_dsl.model.interface import Module
 from robocomp_dsl.source import Source, UnreadableSource
@@ -111,6 +112,7 @@ def plan_migration(
         plan.converted_files += [
             (str(Path(shown, a)), before + b) for a, b in moved.converted_files
         ]
+    locate_in_originals(report)
     return plan
 
 

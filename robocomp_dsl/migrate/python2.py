@@ -85,8 +85,10 @@ def convert(text: str) -> ConvertedModule:
     )
     edits = [] if exact else list(_division_edits(tree, converted))
     edits += _round_edits(tree, converted)
-    doubts = tuple(sorted(_doubts(tree)))
-    return ConvertedModule(_with_helpers(converted, tree, edits), doubts)
+    result = _with_helpers(converted, tree, edits)
+    inserted = result.count("\n") - converted.count("\n")
+    doubts = tuple(sorted((line + inserted, doubt) for line, doubt in _doubts(tree)))
+    return ConvertedModule(result, doubts)
 
 
 def _with_python3_syntax(text: str) -> str:

@@ -15,6 +15,7 @@ from robocomp_dsl.generate.regeneration import user_module
 from robocomp_dsl.generate.regeneration.python_module import decode_module, read_bytes
 from robocomp_dsl.generate.regeneration.user_module import UserModule
 from robocomp_dsl.migrate import codes, worker_codes
+from robocomp_dsl.migrate.original_lines import ConvertedSource
 from robocomp_dsl.migrate.python2 import CannotConvert, convert, looks_like_python2
 from robocomp_dsl.source import Source, Span, UnreadableSource
 
@@ -98,7 +99,7 @@ def _converted(
         span = _line_span(Source(path, text), error.line)
         report.add(codes.UNREADABLE_PYTHON, span, f"Python cannot read `{path.name}`: {error}")
         return None
-    source = Source(path, result.text)
+    source = ConvertedSource(path, result.text, original=Source(path, text))
     if result.text != text:
         message = f"`{path.name}` is Python 2 and was converted to Python 3"
         report.add(worker_codes.PYTHON_2, source.span(0, 0), message)
