@@ -14,17 +14,30 @@ from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.ports import ComponentContext
 from robocomp_dsl.runtime.middleware.ros1.parameters import ros_value
 from robocomp_dsl.runtime.middleware.ros1.xmlrpc import RosApiError
+from robocomp_dsl.runtime.parameters import Parameter
 from tests.middleware.ros1.ros1_peers import Master, RospyPeer, needs_ros1
 from tests.runtime.arm_parameters import ArmParams
 from tests.support.waiting import wait_until
 
 
+class LampParams(ArmParams):
+    """Also with lists of values."""
+
+    SCHEMA = (
+        *ArmParams.SCHEMA,
+        Parameter("weights", "float", default=(1.0,), shortest=1, longest=4, high=10, live=True),
+        Parameter("names", "string", default=(), shortest=0, longest=2, live=True),
+    )
+    weights: list[float]
+    names: list[str]
+
+
 @pytest.fixture
-def params(tmp_path: Path, own_master: Master) -> Iterator[ArmParams]:
+def params(tmp_path: Path, own_master: Master) -> Iterator[LampParams]:
     """The parameters of the running component `/left/arm`."""
     config = tmp_path / "arm.toml"
     config.write_text('rate = 20.0\n[[motors]]\nname = "elbow"\n')
-    loaded = ArmParams.load(config)
+    loaded = LampParams.load(config)
     group = CallbackGroup()
     context = ComponentContext(
         "left/arm",
@@ -50,7 +63,7 @@ def value(master: Master, name: str) -> object:
 @pytest.mark.peers
 @needs_ros1
 def test_parameters_are_shown_and_changed(
-    params: ArmParams, own_master: Master, caplog: pytest.LogCaptureFixture
+    params: LampParams, own_master: Master, caplog: pytest.LogCaptureFixture
 ) -> None:
     master = own_master
     wait_until(lambda: value(master, "motors/0/limits/high") == 1.0)
@@ -64,6 +77,15 @@ def test_parameters_are_shown_and_changed(
     master.run("rosparam", "set", "/left/arm/rate", "5000")
     wait_until(lambda: "rosparam set /left/arm/rate" in caplog.text)
     wait_until(lambda: value(master, "rate") == 40.0)
+    assert value(master, "weights") == [1.0]
+    master.run("rosparam", "set", "/left/arm/weights", "[2, 3.5]")
+    wait_until(lambda: params.weights == [2.0, 3.5])
+    master.run("rosparam", "set", "/left/arm/names", '["a, b", c]')
+    wait_until(lambda: params.names == ["a, b", "c"])
+    params.set({"weights": [4.0]})
+    wait_until(lambda: value(master, "weights") == [4.0])
+    master.run("rosparam", "set", "/left/arm/weights", "[20]")
+    wait_until(lambda: "weights[0]" in caplog.text)
     peer = RospyPeer(master, "setter")
     try:
         peer.command("set_parameter", "/left/arm/retries", 7)
