@@ -140,11 +140,11 @@ def test_generated_component_serves_calls_and_exchanges_topics_with_a_ros_node(
     reply = wait_until(lambda: peer.command("call", "/lamp/switch"))
     assert reply == [True, f"lamp asked {name}"]
     assert peer.command("parameter", "/lamp", "curve") == [0.0, 0.5]
-    assert peer.command("set_parameter", "/lamp", "curve", "[1.0, 0.25, 0.0]") == [True, ""]
+    assert peer.command("set_parameter", "/lamp", "curve", "[1.0,0.25,0.0]") == [True, ""]
     assert peer.command("parameter", "/lamp", "curve") == [1.0, 0.25, 0.0]
-    assert peer.command("set_parameter", "/lamp", "names", '["a, b", "c"]') == [True, ""]
-    assert peer.command("parameter", "/lamp", "names") == ["a, b", "c"]
-    accepted, reason = peer.command("set_parameter", "/lamp", "curve", "[1.0, 7.0]")
+    assert peer.command("set_parameter", "/lamp", "names", '["a,b","c"]') == [True, ""]
+    assert peer.command("parameter", "/lamp", "names") == ["a,b", "c"]
+    accepted, reason = peer.command("set_parameter", "/lamp", "curve", "[1.0,7.0]")
     assert not accepted
     assert "curve[1]" in reason
     peer.command("subscribe", "/lamp/voice")
@@ -172,11 +172,11 @@ def test_generated_component_has_its_parameters_as_those_of_its_node(peer: PeerP
     assert not accepted
     assert "read-only" in reason
     assert peer.command("parameter", "/lamp", "curve") == [0.0, 0.5]
-    assert peer.command("set_parameter", "/lamp", "curve", "[1.0, 0.25, 0.0]") == [True, ""]
+    assert peer.command("set_parameter", "/lamp", "curve", "[1.0,0.25,0.0]") == [True, ""]
     assert peer.command("parameter", "/lamp", "curve") == [1.0, 0.25, 0.0]
-    assert peer.command("set_parameter", "/lamp", "names", '["a, b", "c"]') == [True, ""]
-    assert peer.command("parameter", "/lamp", "names") == ["a, b", "c"]
-    accepted, reason = peer.command("set_parameter", "/lamp", "curve", "[1.0, 7.0]")
+    assert peer.command("set_parameter", "/lamp", "names", '["a,b","c"]') == [True, ""]
+    assert peer.command("parameter", "/lamp", "names") == ["a,b", "c"]
+    accepted, reason = peer.command("set_parameter", "/lamp", "curve", "[1.0,7.0]")
     assert not accepted
     assert "curve[1]" in reason
     peer.command("subscribe", "/lamp/voice")
