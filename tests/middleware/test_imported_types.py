@@ -80,7 +80,7 @@ def test_bottle_types_in_publications(network: Network, generated: Any) -> None:
     publisher = network.node("publisher")
     channel = publisher.ports.advertise(publisher.at(generated.EYES, "Eyes"))
     proxy = generated.EyesProxy(channel)
-    wait_until(lambda: proxy.has_subscribers)
+    wait_until(proxy.has_subscribers)
     value = generated.gaze(
         0.5, generated.gaze_target(1.0, 2.0), [generated.gaze_names("a"), generated.gaze_names("")]
     )

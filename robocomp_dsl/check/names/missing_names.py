@@ -26,7 +26,7 @@ MAX_NAMES = 3
 MAX_PLACES = 2
 """Number of syntax errors at which a name is inserted; after more, the text is too uncertain."""
 
-MAX_LENGTH = 30_000
+MAX_LENGTH = 10_000
 """Length of a text from which nothing is tried: each try is a check of the file."""
 
 _PLACES = (syntax.UNEXPECTED.id, syntax.MISSING_PUNCTUATION.id, legacy.TRAILING_COMMA.id)
