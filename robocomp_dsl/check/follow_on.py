@@ -9,29 +9,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import Protocol
+from typing import Any
 
+from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.diagnostics import Diagnostic, Report, UncertainText
-from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.follow_on import about_uncertain_text
 
 _NAME = re.compile(r"[A-Za-z_]\w*")
 _QUOTED = re.compile(r"`([A-Za-z_]\w*)`")
 
 
-class ParsedFile(Protocol):
-    """A source with its syntax diagnostics."""
-
-    @property
-    def source(self) -> Source:
-        """The text."""
-
-    @property
-    def diagnostics(self) -> Sequence[Diagnostic]:
-        """The syntax diagnostics."""
-
-
-def discard_follow_on_errors(report: Report, file: ParsedFile) -> None:
+def discard_follow_on_errors(report: Report, file: Parsed[Any]) -> None:
     """Remove from the report what follows from a syntax error of `file`."""
     uncertain = [found.uncertain for found in file.diagnostics if found.uncertain]
     if uncertain:

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from enum import Enum, auto
 from pathlib import Path, PurePosixPath
 
-from robocomp_dsl.regular_file import open_regular
-from robocomp_dsl.source import MAX_BYTES
+from robocomp_dsl.source import UnreadableSource, read_source_bytes
 
 SKIPPED_FOLDERS = frozenset(
     ("__pycache__", "build", "bin", "generated", "CMakeFiles", "node_modules")
@@ -109,9 +108,8 @@ def is_main_script(file: ComponentFile, component: str) -> bool:
     if file.relative.parts != ("src", f"{component}.py"):
         return False
     try:
-        with open_regular(file.path) as stream:
-            return bool(_RUNS_WORKER.search(stream.read(MAX_BYTES)))
-    except OSError:
+        return bool(_RUNS_WORKER.search(read_source_bytes(file.path)))
+    except UnreadableSource:
         return True
 
 

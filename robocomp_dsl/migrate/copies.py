@@ -14,7 +14,7 @@ from robocomp_dsl.migrate import codes
 from robocomp_dsl.migrate.component_files import ComponentFile, FileCategory, is_main_script
 from robocomp_dsl.migrate.migrated_component import MigratedComponent
 from robocomp_dsl.regular_file import open_regular
-from robocomp_dsl.source import MAX_BYTES, Source
+from robocomp_dsl.source import MAX_BYTES, Source, UnreadableSource, read_source_bytes
 
 _NOT_MIGRATED = {
     FileCategory.CODE: (codes.NOT_PYTHON, "C++ code is not migrated"),
@@ -56,9 +56,8 @@ def is_read_by_code(config: ComponentFile, modules: Sequence[ComponentFile]) -> 
 def _bytes_of(file: ComponentFile) -> bytes:
     """The bytes of a file; none if it cannot be read, which is reported elsewhere."""
     try:
-        with open_regular(file.path) as stream:
-            return stream.read(MAX_BYTES)
-    except OSError:
+        return read_source_bytes(file.path)
+    except UnreadableSource:
         return b""
 
 

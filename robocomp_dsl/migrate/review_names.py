@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import ast
 import builtins
-import importlib
 import re
 import symtable
-import sys
 from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.regeneration.user_module import UserModule
+from robocomp_dsl.migrate import standard_library
 from robocomp_dsl.migrate.imports import GENERATED_MODULES, span_of
 from robocomp_dsl.migrate.qt_imports import is_qt
 from robocomp_dsl.migrate.worker_codes import DIFFERENT_PROCESS
@@ -86,11 +85,8 @@ def _star_names(
 
 def _public_names(module: str) -> set[str] | None:
     """The public names of a module of the standard library; None for others."""
-    if module.partition(".")[0] not in sys.stdlib_module_names:
-        return None
-    try:
-        loaded = importlib.import_module(module)
-    except ImportError:
+    loaded = standard_library.load(module) if standard_library.is_known(module) else None
+    if loaded is None:
         return None
     listed = getattr(loaded, "__all__", None)
     return set(listed or (name for name in dir(loaded) if not name.startswith("_")))

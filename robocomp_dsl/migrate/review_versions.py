@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.regeneration.user_module import UserModule
+from robocomp_dsl.migrate import standard_library
 from robocomp_dsl.migrate.import_nodes import optional_nodes
 from robocomp_dsl.migrate.imports import span_of
 from robocomp_dsl.migrate.worker_codes import DIFFERENT_PROCESS
@@ -47,8 +48,6 @@ _NUMPY = dict.fromkeys(
     "Inf": "numpy has removed `Inf`: write `inf`",
 }
 """Names that numpy has removed."""
-_NOT_LOADED = frozenset(("antigravity", "idlelib", "lib2to3", "this", "tkinter", "turtle"))
-"""Modules of the standard library that do something when they are loaded."""
 
 _Finding = tuple[ast.expr | ast.stmt, str]
 
@@ -119,8 +118,7 @@ def _lacking(module: str, name: str) -> str | None:
         return None
     if module == "numpy":
         return _NUMPY.get(name)
-    top = module.partition(".")[0]
-    if top not in sys.stdlib_module_names or top in _NOT_LOADED or _has(module, name):
+    if not standard_library.is_known(module) or _has(module, name):
         return None
     version = f"{sys.version_info.major}.{sys.version_info.minor}"
     return f"the module `{module}` of Python {version} has no `{name}`"
@@ -128,12 +126,11 @@ def _lacking(module: str, name: str) -> str | None:
 
 def _has(module: str, name: str) -> bool:
     """Whether a module of the standard library has a name; also if it is for another system."""
+    loaded = standard_library.load(module)
+    if loaded is None:
+        return True
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        try:
-            loaded = importlib.import_module(module)
-        except ImportError:
-            return True
         return hasattr(loaded, name) or _is_module(f"{module}.{name}")
 
 

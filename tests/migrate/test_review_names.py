@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
@@ -55,3 +56,9 @@ def test_review_names_reports_line(text: str, expected: list[tuple[int, str]]) -
 )
 def test_review_names_accepts(text: str) -> None:
     assert findings(text) == []
+
+
+def test_review_names_loads_no_module_that_does_something() -> None:
+    """`antigravity` opens a web browser; `tkinter` may have no display."""
+    assert findings("from antigravity import *\nx = nowhere\n") == []
+    assert "antigravity" not in sys.modules

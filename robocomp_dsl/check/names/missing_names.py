@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Protocol
+from typing import Any
 
+from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.diagnostics import Diagnostic, Edit, Fix, Note, Report, Severity
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.codes import legacy, syntax
@@ -32,19 +33,7 @@ MAX_LENGTH = 10_000
 _PLACES = (syntax.UNEXPECTED.id, syntax.MISSING_PUNCTUATION.id, legacy.TRAILING_COMMA.id)
 
 
-class ParsedText(Protocol):
-    """A text with its syntax diagnostics."""
-
-    @property
-    def source(self) -> Source:
-        """The text."""
-
-    @property
-    def diagnostics(self) -> Sequence[Diagnostic]:
-        """The syntax diagnostics."""
-
-
-def report_missing_name(report: Report, file: ParsedText, recheck: Recheck) -> bool:
+def report_missing_name(report: Report, file: Parsed[Any], recheck: Recheck) -> bool:
     """If a name makes a file correct where its syntax is not, offer to insert it.
 
     Returns whether it does. Then no finding that remains follows from the syntax error.

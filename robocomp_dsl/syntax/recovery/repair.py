@@ -14,7 +14,7 @@ from robocomp_dsl.syntax.codes import syntax as syntax_codes
 from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
-from robocomp_dsl.syntax.recovery.error_context import ErrorContext
+from robocomp_dsl.syntax.recovery.error_context import ErrorContext, quote_token
 
 
 class Repair(ValueRecord):
@@ -59,6 +59,21 @@ class Repair(ValueRecord):
             fix=findings.fix(self.title, *self.edits) if self.edits else None,
             uncertain=uncertain,
         )
+
+
+def missing_sign(kind: str, sign: str, previous: Token, *, required: int) -> Repair:
+    """Insert a punctuation character of a terminal after the token `previous`."""
+    at = previous.end
+    return Repair(
+        syntax_codes.MISSING_PUNCTUATION,
+        at,
+        at,
+        f"`{sign}` is missing after {quote_token(previous)}",
+        title=f"add `{sign}`",
+        edits=((at, at, sign),),
+        replacement=(Token(kind, sign, at, at),),
+        required=required,
+    )
 
 
 def panic_mode(context: ErrorContext, item: Sequence[Token]) -> Repair:

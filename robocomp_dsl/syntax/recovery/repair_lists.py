@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from robocomp_dsl.syntax.codes import syntax as codes
 from robocomp_dsl.syntax.grammar.lexer import Token
 from robocomp_dsl.syntax.recovery.error_context import ErrorContext
-from robocomp_dsl.syntax.recovery.repair import Repair
+from robocomp_dsl.syntax.recovery.repair import Repair, missing_sign
 
 _STRING = r'"[^"\\\n]*(?:\\.[^"\\\n]*)*"'
 _VALUE = re.compile(
@@ -44,28 +44,14 @@ def _missing_comma(context: ErrorContext, accepted: list[str]) -> Iterator[Repai
     if "COMMA" not in accepted or token.kind not in kinds or previous.kind not in kinds:
         return
     if token.text != previous.text:
-        yield _insertion(context, "COMMA", ",")
+        yield missing_sign("COMMA", ",", previous, required=1)
 
 
 def _missing_end(context: ErrorContext, accepted: list[str]) -> Iterator[Repair]:
     """`{1, 2 [kg]`."""
     token = context.lookahead[0]
     if set(accepted) == _ENDS_ELEMENT and token.kind not in (*_VALUES, *_ENDS_ELEMENT):
-        yield _insertion(context, "RBRACE", "}")
-
-
-def _insertion(context: ErrorContext, kind: str, sign: str) -> Repair:
-    at = context.previous.end
-    return Repair(
-        codes.MISSING_PUNCTUATION,
-        at,
-        at,
-        f"`{sign}` is missing after `{context.previous.text}`",
-        title=f"add `{sign}`",
-        edits=((at, at, sign),),
-        replacement=(Token(kind, sign, at, at),),
-        required=1,
-    )
+        yield missing_sign("RBRACE", "}", context.previous, required=1)
 
 
 def _missing_braces(context: ErrorContext, item: Sequence[Token], keep: int) -> Iterator[Repair]:

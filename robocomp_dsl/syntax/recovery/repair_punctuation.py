@@ -13,7 +13,7 @@ from robocomp_dsl.syntax.codes import syntax as syntax_codes
 from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
 from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token
-from robocomp_dsl.syntax.recovery.repair import Repair
+from robocomp_dsl.syntax.recovery.repair import Repair, missing_sign
 
 IDENTIFIER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _PUNCTUATION = re.compile(r"\W+")
@@ -190,19 +190,10 @@ def surplus_token(context: ErrorContext) -> Iterator[Repair]:
 
 def missing_punctuation(context: ErrorContext, accepted: list[str]) -> Iterator[Repair]:
     """A punctuation character is missing."""
-    at = context.previous.end
     for kind, text in _accepted_punctuation(context, accepted):
-        yield Repair(
-            syntax_codes.MISSING_PUNCTUATION,
-            at,
-            at,
-            f"`{text}` is missing after {quote_token(context.previous)}",
-            title=f"add `{text}`",
-            edits=((at, at, text),),
-            replacement=(Token(kind, text, at, at),),
-            # In `a b c` another one is missing after the next identifier.
-            required=1 if text == "," and IDENTIFIER.fullmatch(context.lookahead[0].text) else 3,
-        )
+        # In `a b c` another one is missing after the next identifier.
+        required = 1 if text == "," and IDENTIFIER.fullmatch(context.lookahead[0].text) else 3
+        yield missing_sign(kind, text, context.previous, required=required)
 
 
 def _closes_list(context: ErrorContext) -> bool:
@@ -220,18 +211,9 @@ def earlier_punctuation(
         if states is None:
             continue
         there = context.replace(states=states, previous=item[index - 1], lookahead=item[index:])
-        at = item[index - 1].end
         for kind, text in _accepted_punctuation(there, there.accepted_terminals()):
             if text in "})>" or (text == "{" and not _closes_list(context)):
                 continue
-            yield Repair(
-                syntax_codes.MISSING_PUNCTUATION,
-                at,
-                at,
-                f"`{text}` is missing after {quote_token(item[index - 1])}",
-                title=f"add `{text}`",
-                edits=((at, at, text),),
-                replacement=(*item[:index], Token(kind, text, at, at), *item[index:]),
-                keep=keep,
-                required=WINDOW,
-            )
+            repair = missing_sign(kind, text, item[index - 1], required=WINDOW)
+            again = (*item[:index], *repair.replacement, *item[index:])
+            yield repair.replace(replacement=again, keep=keep)
